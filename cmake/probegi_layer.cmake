@@ -1,0 +1,32 @@
+# One static library per folder of src/, so that dependencies point one way:
+# a layer sees the headers of the layers that it names, and no others are linked.
+
+add_library(probegi_options INTERFACE)
+target_compile_options(probegi_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+if(PROBEGI_WERROR)
+    target_compile_options(probegi_options INTERFACE -Werror)
+endif()
+if(PROBEGI_NATIVE)
+    target_compile_options(probegi_options INTERFACE -march=native)
+endif()
+if(PROBEGI_SANITIZE)
+    target_compile_options(probegi_options INTERFACE -fsanitize=${PROBEGI_SANITIZE} -fno-omit-frame-pointer -g1)
+    target_link_options(probegi_options INTERFACE -fsanitize=${PROBEGI_SANITIZE})
+endif()
+
+# probegi_layer(NAME [LAYERS lower layers...] [LIBRARIES external libraries...])
+# compiles every .cpp of the calling folder into the static library probegi_NAME.
+function(probegi_layer name)
+    cmake_parse_arguments(ARG "" "" "LAYERS;LIBRARIES" ${ARGN})
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+    add_library(probegi_${name} STATIC ${sources})
+    target_include_directories(probegi_${name}
+        PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+        PRIVATE ${PROJECT_SOURCE_DIR}/src)
+    target_link_libraries(probegi_${name} PRIVATE $<BUILD_INTERFACE:probegi_options>)
+    foreach(layer ${ARG_LAYERS})
+        target_link_libraries(probegi_${name} PUBLIC probegi_${layer})
+    endforeach()
+    target_link_libraries(probegi_${name} PRIVATE ${ARG_LIBRARIES})
+    set_property(GLOBAL APPEND PROPERTY PROBEGI_LAYERS probegi_${name})
+endfunction()

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "probegi/image.h"
+
+namespace probegi {
+
+/// Distances between a test picture and a reference picture.
+struct ImageDifference {
+    double rmse = 0;    ///< display-referred, 0..1, as the mask paper (section 4) defines it
+    double relmse = 0;  ///< mean of (t - r)^2 / (r^2 + 0.01) over pixels and channels, linear
+    double flip = 0;    ///< mean LDR-FLIP (Andersson et al. 2020) at 67 pixels per degree, 0..1
+};
+
+struct Comparison {
+    ImageDifference difference;
+    HdrImage flipMap;  ///< per-pixel FLIP in all three channels, 0..1
+    HdrImage rmseMap;  ///< per-pixel display-referred error in all three channels, 0..1
+};
+
+/// Errors: invalidArgument (sizes differ, or a value is not finite).
+Result<Comparison> compareImages(const HdrImage& test, const HdrImage& reference, const ToneMap& toneMap = {});
+
+/// Colours 0..1 from dark to bright (perceptually ordered map), for error pictures. Display-referred sRGB in 0..1.
+HdrImage heatmap(const HdrImage& values);
+
+}  // namespace probegi

@@ -1,0 +1,147 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+
+#include "probegi/context.h"
+#include "probegi/grid.h"
+#include "probegi/tracer.h"
+
+namespace probegi {
+
+/// The second axis of the pipeline: which of the eight surrounding probes a point may use.
+enum class LeakGuard : std::uint8_t {
+    none,     ///< trilinear and backface weights only: the leaking baseline
+    moments,  ///< DDGI: Chebyshev test on distance moments (section 2.2 and 4.1)
+};
+
+/// What an update ray that hits the back of a single-sided surface does to irradiance (section 4.1).
+enum class BackfaceRule : std::uint8_t {
+    zeroSample,  ///< counts as a sample of radiance 0 (the paper)
+    excluded,    ///< is left out of the average
+};
+
+/// How a Field is made. Distances are fractions of probe spacing: nothing here depends on the scene's scale.
+struct FieldDesc {
+    GridDesc grid;
+    int raysPerProbe = 144;       ///< update rays a probe and frame, 8..4096
+    int irradianceTexels = 8;     ///< side of the octahedral irradiance map, 4..32, even
+    int visibilityTexels = 16;    ///< side of the octahedral visibility map, 4..64, even
+    float hysteresis = 0.97f;     ///< share of the old irradiance that survives an update (alpha of eq. 1), 0..0.999
+    float visibilityHysteresis = 0.97f;  ///< the same for distance moments, 0..0.999
+    float visibilityExponent = 50.0f;    ///< power of the cosine that weights distances, 1..500
+    float selfShadowBias = 0.3f;  ///< TunableShadowBias of eq. 2, 0..2
+    float significantChange = 0.25f;     ///< Listing 3, on encoded irradiance over its maximum; 0 disables
+    float newDistribution = 0.8f;        ///< Listing 3, same scale; 0 disables
+    BackfaceRule backfaceRule = BackfaceRule::zeroSample;
+    LeakGuard guard = LeakGuard::moments;
+    std::uint64_t seed = 1;       ///< of the per-frame ray rotation and the storage dither
+};
+
+/// What one ray of one probe brought home. This is the seam for engines with a ray tracer of their own.
+struct RayDatum {
+    glm::vec3 radiance{0.0f};  ///< W sr^-1 m^-2 arriving at the probe; not finite or negative: treated as 0
+    float distance = 0.0f;     ///< metres; negative: minus the distance to a backface; a miss: anything >= 1e27
+};
+
+/// A question to the field: how much light arrives at `position` on a surface that faces `normal`?
+struct FieldQuery {
+    glm::vec3 position{0.0f};
+    glm::vec3 normal{0, 1, 0};    ///< unit
+    glm::vec3 toViewer{0, 1, 0};  ///< unit, omega_o of eq. 2; use the normal where there is no viewer
+};
+
+/// Wall-clock milliseconds of one update. Stages overlap nothing; total includes what is in none of them.
+struct UpdateTimes {
+    double trace = 0;  ///< closest hits
+    double shade = 0;  ///< surfaces, textures, shadow rays, multi-bounce query
+    double blend = 0;  ///< matrix products, encoding, storage
+    double total = 0;
+};
+
+/// Changes that call for faster convergence than the plain hysteresis gives (section 4.3).
+enum class FieldEvent : std::uint8_t {
+    smallLightChange,   ///< irradiance hysteresis -15 % for 4 frames
+    largeLightChange,   ///< irradiance hysteresis -50 % for 10 frames
+    largeObjectChange,  ///< irradiance hysteresis -50 % for 10 frames, visibility hysteresis -50 % for 7 frames
+};
+
+struct FieldMemory {
+    std::size_t irradianceBytes = 0;
+    std::size_t visibilityBytes = 0;
+    std::size_t stateBytes = 0;
+    std::size_t scratchBytes = 0;  ///< ray data and frame matrices; kept between updates
+    std::size_t persistentBytes() const { return irradianceBytes + visibilityBytes + stateBytes; }
+};
+
+/// The probes' memory of what light and distance they see: irradiance and visibility, updated a little every frame and
+/// queried anywhere. Move-only. Concurrent queries are safe; an update excludes queries.
+class Field {
+public:
+    /// Errors: invalidArgument (the message names the field and its range), outOfMemory.
+    static Result<Field> create(const Context& context, const FieldDesc& desc);
+    Field(Field&&) noexcept;
+    Field& operator=(Field&&) noexcept;
+    ~Field();
+
+    const FieldDesc& desc() const noexcept;
+    int frame() const noexcept;  ///< updates so far
+    FieldMemory memory() const noexcept;
+
+    /// Unit directions of the coming update's rays, raysPerProbe of them, shared by all probes: a spherical Fibonacci
+    /// set under this frame's random rotation (section 2.3).
+    std::span<const glm::vec3> rayDirections() const noexcept;
+
+    /// One update from the caller's own rays: datum [probe * raysPerProbe + ray] came along rayDirections()[ray] from
+    /// probePosition(desc().grid, probe). Errors: invalidArgument (wrong length), cancelled.
+    Result<UpdateTimes> update(std::span<const RayDatum> rayData);
+
+    /// One update with the library's pipeline: trace, shade with `lighting` and last frame's field, blend.
+    /// Errors: cancelled.
+    Result<UpdateTimes> update(const Tracer& tracer, const Lighting& lighting);
+
+    /// Updates until the irradiance changes by less than `tolerance` (relative, mean over probes) between two blocks of
+    /// updates, or maxFrames is reached. The last blocks average with hysteresis 1 - 1/k, so that noise falls as well.
+    /// Returns the number of updates done. Errors: cancelled, invalidArgument.
+    Result<int> converge(const Tracer& tracer, const Lighting& lighting, float tolerance = 0.005f, int maxFrames = 512);
+
+    /// Announces a change to the scene (section 4.3).
+    void notify(FieldEvent event) noexcept;
+
+    /// Changes the guard of later queries and updates; costs nothing, keeps all data.
+    void setGuard(LeakGuard guard) noexcept;
+
+    /// Irradiance E in W m^-2. Unchecked and noexcept: vectors must be finite and unit. Outside the grid the nearest
+    /// cell answers.
+    glm::vec3 irradiance(const FieldQuery& query) const noexcept;
+
+    /// The same for many points, on all threads. The spans must be equally long (asserted).
+    void irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> out) const;
+
+    /// What probe `probe` stores: E in W m^-2 for a surface facing `normal` at the probe itself.
+    glm::vec3 probeIrradiance(int probe, glm::vec3 normal) const noexcept;
+    /// Mean and mean square of the distance that probe `probe` stores in a direction, metres and square metres.
+    glm::vec2 probeDistanceMoments(int probe, glm::vec3 direction) const noexcept;
+
+    struct Impl;
+
+private:
+    explicit Field(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> m_impl;
+};
+
+/// How the automatic grid is laid.
+struct PlacementDesc {
+    glm::ivec3 counts{0};          ///< probes per axis; 0: from the scene's size
+    int targetProbes = 8192;       ///< about how many where counts is 0, 8..2^24
+    float marginCells = 1.0f;      ///< cells beyond the scene's bounds on every side, >= 0
+};
+
+/// A grid that covers the bounds with the asked-for margin and near-cubic cells.
+/// Errors: invalidArgument (empty or non-finite bounds, counts out of range).
+Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc = {});
+
+}  // namespace probegi

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "probegi/context.h"
+#include "probegi/result.h"
+
+namespace probegi {
+
+/// Linear Rec.709 picture, row-major, top row first.
+struct HdrImage {
+    int width = 0;   ///< pixels
+    int height = 0;  ///< pixels
+    std::vector<glm::vec3> pixels;  ///< width * height values
+
+    HdrImage() = default;
+    HdrImage(int w, int h, glm::vec3 fill = glm::vec3(0)) : width(w), height(h), pixels(std::size_t(w) * h, fill) {}
+    glm::vec3& at(int x, int y) { return pixels[std::size_t(y) * width + x]; }
+    const glm::vec3& at(int x, int y) const { return pixels[std::size_t(y) * width + x]; }
+};
+
+/// How scene-referred values become 8-bit display values.
+struct ToneMap {
+    float exposure = 1.0f;  ///< factor on the linear value before the curve; > 0
+    bool filmic = false;    ///< false: clip at 1 (measurement); true: a smooth shoulder (handsome pictures)
+};
+
+/// Display-referred value in 0..1 of a linear one: exposure, curve, sRGB transfer function.
+glm::vec3 toDisplay(glm::vec3 linear, const ToneMap& toneMap);
+
+/// Reads .exr, .hdr, .png or .jpg (the 8-bit ones are decoded from sRGB to linear).
+/// Errors: fileNotFound, fileUnreadable, malformed, unsupported (extension), outOfMemory (over 2^28 pixels).
+Result<HdrImage> readImage(const std::filesystem::path& path);
+
+/// Writes .exr (float, linear, no tone map) or .png (8-bit sRGB through toneMap), by extension. The file appears
+/// whole or not at all (temporary name, then rename). Errors: unsupported (extension), writeFailed, invalidArgument.
+Result<void> writeImage(const std::filesystem::path& path, const HdrImage& image, const ToneMap& toneMap = {});
+
+}  // namespace probegi

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+
+#include "probegi/context.h"
+#include "probegi/scene.h"
+
+namespace probegi {
+
+/// A half-line. Hits closer than `near` or farther than `far` do not count.
+struct Ray {
+    glm::vec3 origin{0.0f};
+    float near = 0.0f;  ///< metres
+    glm::vec3 direction{0, 0, 1};  ///< unit
+    float far = 1e30f;  ///< metres
+};
+
+/// The closest surface along a Ray. `primitive < 0`: nothing was hit.
+struct Hit {
+    float distance = 1e30f;        ///< metres along the ray
+    std::int32_t primitive = -1;   ///< tracer-specific triangle or SDF primitive number
+    std::int32_t geometry = -1;    ///< tracer-specific
+    std::int32_t instance = -1;    ///< tracer-specific
+    glm::vec2 barycentric{0.0f};   ///< weights of the second and third corner
+    bool valid() const { return primitive >= 0; }
+};
+
+/// What a hit looks like to light: geometry and material resolved, textures sampled. Normals face the ray's origin.
+struct Surface {
+    glm::vec3 position{0.0f};
+    glm::vec3 geometricNormal{0, 1, 0};  ///< unit, on the side the ray came from
+    glm::vec3 shadingNormal{0, 1, 0};    ///< unit, interpolated and normal-mapped, on the same side as the ray's origin
+    glm::vec3 albedo{0.0f};              ///< base colour, 0..1
+    glm::vec3 emission{0.0f};            ///< radiance towards the ray's origin, W sr^-1 m^-2 (0 on a backface)
+    float metallic = 0.0f;
+    float roughness = 1.0f;
+    bool backface = false;               ///< the back of a single-sided material: solid wall
+};
+
+/// The first axis of the pipeline: what a ray hits. Implementations are immutable once made and safe to use from
+/// many threads at once. Batches may have any length; the two spans must be equally long.
+class Tracer {
+public:
+    virtual ~Tracer() = default;
+    /// Closest hit of each ray. Alpha masks are honoured.
+    virtual void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const = 0;
+    /// Whether anything lies between near and far: 1 blocked, 0 free. Alpha masks are honoured.
+    virtual void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const = 0;
+    /// Resolves valid hits; entries of missed rays are left as they are.
+    virtual void surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const = 0;
+    /// Of everything that can be hit.
+    virtual Bounds bounds() const = 0;
+};
+
+/// The lights that are not surfaces: punctual lights and the sky.
+struct Lighting {
+    std::vector<PlacedLight> lights;
+    Sky sky;
+};
+
+/// Triangles by Embree on the CPU, with textures. Meshes used once are merged, shared ones become instances.
+/// The scene must be valid and outlive the tracer. Errors: outOfMemory, invalidArgument.
+Result<std::unique_ptr<Tracer>> makeEmbreeTracer(const Context& context, const Scene& scene, const ScenePose& pose);
+
+}  // namespace probegi

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <mutex>
+#include <tbb/task_arena.h>
+
+#include "probegi/context.h"
+
+namespace probegi {
+
+struct Context::Impl {
+    explicit Impl(const ContextDesc& d, int threadCount) : desc(d), threads(threadCount), arena(threadCount) {}
+
+    ContextDesc desc;
+    int threads;
+    tbb::task_arena arena;
+    std::mutex logMutex;
+};
+
+}  // namespace probegi
