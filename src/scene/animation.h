@@ -1,0 +1,13 @@
+#pragma once
+
+#include <glm/vec4.hpp>
+
+#include "probegi/scene.h"
+
+namespace probegi {
+
+/// The channel's value at a time in seconds, clamped to its first and last key. Rotations are unit quaternions (xyzw).
+/// The channel must be valid. Formulas: glTF 2.0 specification, appendix C.
+glm::vec4 sampleChannel(const AnimationChannel& channel, float seconds);
+
+}  // namespace probegi

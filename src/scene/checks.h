@@ -1,0 +1,81 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <cmath>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <string>
+
+#include "probegi/scene.h"
+
+/// Small predicates and the common form of validate()'s sentences: "WHAT: WHY".
+namespace probegi::checks {
+
+inline bool finite(float v) {
+    return std::isfinite(v);
+}
+inline bool finite(glm::vec2 v) {
+    return finite(v.x) && finite(v.y);
+}
+inline bool finite(glm::vec3 v) {
+    return finite(v.x) && finite(v.y) && finite(v.z);
+}
+inline bool finite(glm::vec4 v) {
+    return finite(v.x) && finite(v.y) && finite(v.z) && finite(v.w);
+}
+inline bool finite(const glm::mat3& m) {
+    return finite(m[0]) && finite(m[1]) && finite(m[2]);
+}
+inline bool finite(const glm::mat4& m) {
+    return finite(m[0]) && finite(m[1]) && finite(m[2]) && finite(m[3]);
+}
+
+/// lower <= v <= upper, false for NaN.
+inline bool within(float v, float lower, float upper) {
+    return v >= lower && v <= upper;
+}
+
+/// Finite and not negative.
+inline bool energy(glm::vec3 v) {
+    return finite(v) && v.x >= 0 && v.y >= 0 && v.z >= 0;
+}
+
+inline std::string text(glm::vec3 v) {
+    return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z);
+}
+inline std::string text(glm::vec4 v) {
+    return fmt::format("({:g}, {:g}, {:g}, {:g})", v.x, v.y, v.z, v.w);
+}
+
+/// "material 3 'brick'", or "material 3" for one without a name.
+inline std::string title(std::string_view kind, std::size_t index, std::string_view name) {
+    return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, name);
+}
+
+template <class... Args>
+[[nodiscard]] tl::unexpected<Error> malformed(fmt::format_string<Args...> format, Args&&... args) {
+    return fail(ErrorCode::malformed, fmt::format(format, std::forward<Args>(args)...));
+}
+
+/// An index into a list of `count`, or -1 for none.
+inline bool optionalIndex(int index, std::size_t count) {
+    return index == -1 || (index >= 0 && std::size_t(index) < count);
+}
+
+}  // namespace probegi::checks
+
+namespace probegi {
+
+// The parts of validate(), one per list of the scene.
+Result<void> validateImages(const Scene& scene);
+Result<void> validateMaterials(const Scene& scene);
+Result<void> validateMeshes(const Scene& scene);
+Result<void> validateLightsAndCameras(const Scene& scene);
+Result<void> validateNodes(const Scene& scene);
+Result<void> validateAnimations(const Scene& scene);
+Result<void> validateSurroundings(const Scene& scene);
+
+}  // namespace probegi
