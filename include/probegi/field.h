@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -103,10 +105,14 @@ public:
     /// Errors: cancelled.
     Result<UpdateTimes> update(const Tracer& tracer, const Lighting& lighting);
 
-    /// Updates until the irradiance changes by less than `tolerance` (relative, mean over probes) between two blocks of
-    /// updates, or maxFrames is reached. The last blocks average with hysteresis 1 - 1/k, so that noise falls as well.
+    /// For pictures of a scene that stands still: updates until the irradiance has changed by less than `tolerance`
+    /// (relative, mean over probes) since half as many updates, or maxFrames is reached. Update k blends with weight
+    /// 3 / (k + 2), in linear instead of encoded space: the light of early updates, which lacks bounces, is forgotten
+    /// like 1 / k^3 while noise falls like 1 / sqrt(k), and the mean is unbiased.
     /// Returns the number of updates done. Errors: cancelled, invalidArgument.
-    Result<int> converge(const Tracer& tracer, const Lighting& lighting, float tolerance = 0.005f, int maxFrames = 512);
+    /// `onUpdate`, where given, receives the times of every update.
+    Result<int> converge(const Tracer& tracer, const Lighting& lighting, float tolerance = 0.01f, int maxFrames = 256,
+                         const std::function<void(const UpdateTimes&)>& onUpdate = {});
 
     /// Announces a change to the scene (section 4.3).
     void notify(FieldEvent event) noexcept;
