@@ -1,0 +1,49 @@
+// Weights of the eight probes around a point (DDGI paper, sections 2.2 and 4.1).
+#ifndef PROBEGI_KERNELS_PROBE_QUERY_H
+#define PROBEGI_KERNELS_PROBE_QUERY_H
+
+#include "kernels/lanes.h"
+
+KERNELS_BEGIN
+
+// Smallest trilinear factor per axis, so that a point on a cell's face still has a fallback on the far side.
+KERNEL_CONST float kMinTrilinear = 0.001f;
+// Chebyshev weights never fall below this: where all eight probes are shadowed, ratios still decide.
+KERNEL_CONST float kMinChebyshev = 0.05f;
+// Weights below this are crushed.
+KERNEL_CONST float kCrushBelow = 0.2f;
+
+// Eq. 2: the offset from a surface point to where visibility is tested. `toViewer` is omega_o.
+KERNEL_FN vec3 selfShadowBias(vec3 normal, vec3 toViewer, float minSpacing, float tunableBias) {
+    return (normal * 0.2f + toViewer * 0.8f) * (0.75f * minSpacing * tunableBias);
+}
+
+// Trilinear factor of one axis: `corner` is 0 or 1, `alpha` the position in the cell, 0..1.
+KERNEL_FN Real trilinearFactor(Real corner, float alpha) {
+    return max(Real(kMinTrilinear), corner * alpha + (1.0f - corner) * (1.0f - alpha));
+}
+
+// Smooth backface weight: ((cos + 1) / 2)^2 + 0.2, with the cosine between the normal and the direction to the probe.
+KERNEL_FN Real backfaceWeight(Real cosToProbe) {
+    const Real wrap = cosToProbe * 0.5f + 0.5f;
+    return wrap * wrap + 0.2f;
+}
+
+// One-sided Chebyshev bound on the share of light that passes `distance`, from the mean and mean square of the distance
+// to the nearest surface; cubed to darken what is uncertain. 1 in front of the mean.
+KERNEL_FN Real chebyshevWeight(Real mean, Real meanSquare, Real distance) {
+    const Real variance = abs(meanSquare - mean * mean);
+    const Real behind = max(distance - mean, Real(0.0f));
+    // The tiny addend decides 0 / 0: a surface without variance blocks nothing in front of it and everything behind.
+    const Real bound = (variance + 1e-12f) / (variance + behind * behind + 1e-12f);
+    return max(bound * bound * bound, Real(kMinChebyshev));
+}
+
+// Small weights shrink with their cube, so that eight leaking probes do not add up to a leak.
+KERNEL_FN Real crushWeight(Real w) {
+    return select(w < kCrushBelow, w * w * w * (1.0f / (kCrushBelow * kCrushBelow)), w);
+}
+
+KERNELS_END
+
+#endif
