@@ -1,0 +1,45 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "probegi/grid.h"
+#include "probegi/tracer.h"
+
+namespace probegi::tool {
+
+// Text of the command line to values. Errors are sentences that name what was expected; they throw nothing.
+
+/// Exactly `count` finite numbers between commas, e.g. "1,-0.5,2".
+Result<std::vector<float>> parseNumbers(std::string_view text, std::size_t count);
+
+Result<glm::vec3> parseVector(std::string_view text);   ///< "X,Y,Z"
+Result<glm::ivec3> parseCounts(std::string_view text);  ///< "XxYxZ", each 2..1024, at most 2^24 in all
+Result<GridDesc> parseVolume(std::string_view text);    ///< "X,Y,Z:S:XxYxZ" or "X,Y,Z:SX,SY,SZ:XxYxZ"
+Result<PlacedLight> parseSun(std::string_view text);    ///< "X,Y,Z,LUX": the direction in which the light travels
+Result<PlacedLight> parsePoint(std::string_view text);  ///< "X,Y,Z,R,G,B": position, intensity in W/sr
+
+struct PictureSize {
+    int width = 960;
+    int height = 540;
+};
+Result<PictureSize> parseSize(std::string_view text);  ///< "WxH", each 1..16384
+
+/// CLI11's own range check lets NaN through and does not say which option failed.
+CLI::Validator inRange(double lower, double upper);
+
+/// Turns one of the parsers above into a check that CLI11 runs while it reads the command line.
+template <class Parser>
+CLI::Validator parsedBy(Parser parser) {
+    return CLI::Validator(
+        [parser](std::string& text) {
+            const auto result = parser(text);
+            return result ? std::string() : result.error().message;
+        },
+        "");
+}
+
+}  // namespace probegi::tool

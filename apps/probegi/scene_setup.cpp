@@ -1,0 +1,157 @@
+#include "scene_setup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "parse.h"
+
+namespace probegi::tool {
+
+namespace {
+
+constexpr std::string_view kBuiltinPrefix = "builtin:";
+
+bool positive(glm::vec3 v) {
+    return v.x > 0 || v.y > 0 || v.z > 0;
+}
+
+bool hasEmission(const Scene& scene, const ScenePose& pose) {
+    for (const Instance& instance : pose.instances)
+        for (const Primitive& primitive : scene.meshes[std::size_t(instance.mesh)].primitives)
+            if (!primitive.indices.empty() && positive(scene.materials[std::size_t(primitive.material)].emission))
+                return true;
+    return false;
+}
+
+Result<Sky> parseSky(const std::string& text) {
+    Sky sky;
+    if (const auto color = parseVector(text)) {
+        sky.radiance = *color;
+        return sky;
+    }
+    auto image = readImage(text);
+    if (!image)
+        return fail(image.error().code,
+                    fmt::format("--sky is neither R,G,B nor a readable picture: {}", image.error().message));
+    sky.radiance = glm::vec3(1.0f);
+    sky.image = std::move(*image);
+    return sky;
+}
+
+Result<Lighting> makeLighting(const SceneOptions& options, const Scene& scene, const ScenePose& pose) {
+    Lighting lighting;
+    for (const PlacedLight& light : pose.lights) {
+        const bool replaced = light.type == LightType::directional ? !options.suns.empty() : !options.points.empty();
+        if (!replaced && positive(light.intensity)) lighting.lights.push_back(light);
+    }
+    const auto add = [&](const Result<PlacedLight>& light) {
+        if (light && positive(light->intensity)) lighting.lights.push_back(*light);
+    };
+    for (const std::string& sun : options.suns) add(parseSun(sun));
+    for (const std::string& point : options.points) add(parsePoint(point));
+    lighting.sky = scene.sky;
+    if (!options.sky.empty()) {
+        auto sky = parseSky(options.sky);
+        if (!sky) return tl::unexpected(sky.error());
+        lighting.sky = std::move(*sky);
+    }
+    return lighting;
+}
+
+std::string cameraNames(const ScenePose& pose) {
+    std::string names;
+    for (std::size_t i = 0; i < pose.cameras.size(); ++i)
+        names += fmt::format("{}{} '{}'", i ? ", " : "", i, pose.cameras[i].name);
+    return names.empty() ? std::string("none; leave --camera out or use --look-from and --look-at") : names;
+}
+
+Result<PlacedCamera> findCamera(const std::string& wanted, const ScenePose& pose) {
+    const auto named = std::find_if(pose.cameras.begin(), pose.cameras.end(),
+                                    [&](const PlacedCamera& camera) { return camera.name == wanted; });
+    if (named != pose.cameras.end()) return *named;
+    std::size_t index = 0;
+    const auto [end, code] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+    const bool whole = code == std::errc() && end == wanted.data() + wanted.size();
+    if (whole && index < pose.cameras.size()) return pose.cameras[index];
+    return fail(ErrorCode::invalidArgument,
+                fmt::format("--camera '{}' is not in the scene; its cameras are {}", wanted, cameraNames(pose)));
+}
+
+Result<PlacedCamera> makeCamera(const SceneOptions& options, const ScenePose& pose) {
+    PlacedCamera camera = pose.cameras.empty() ? overviewCamera(pose.bounds) : pose.cameras.front();
+    if (!options.camera.empty()) {
+        const auto found = findCamera(options.camera, pose);
+        if (!found) return found;
+        camera = *found;
+    }
+    if (!options.lookFrom.empty() || !options.lookAt.empty()) {
+        const glm::vec3 from = options.lookFrom.empty() ? camera.position : *parseVector(options.lookFrom);
+        const glm::vec3 at = options.lookAt.empty() ? from + camera.forward : *parseVector(options.lookAt);
+        if (!(glm::distance(from, at) > 0))
+            return fail(ErrorCode::invalidArgument, "--look-at is where the camera stands; choose another point");
+        camera = lookAt(from, at, camera.yfov);
+    }
+    if (options.fovDegrees) camera.yfov = glm::radians(*options.fovDegrees);
+    return camera;
+}
+
+Result<GridDesc> makeGrid(const SceneOptions& options, const Scene& scene, const ScenePose& pose) {
+    if (!options.volume.empty()) return parseVolume(options.volume);
+    PlacementDesc placement;
+    if (!options.probes.empty())
+        placement.counts = *parseCounts(options.probes);
+    else if (scene.grid)
+        return *scene.grid;
+    return placeGrid(pose.bounds, placement);
+}
+
+}  // namespace
+
+Result<LoadedScene> readScene(const SceneOptions& options) {
+    if (options.scene.rfind(kBuiltinPrefix, 0) != 0) return loadScene(options.scene);
+    auto scene = makeBuiltinScene(std::string_view(options.scene).substr(kBuiltinPrefix.size()), options.builtin);
+    if (!scene) return tl::unexpected(scene.error());
+    return LoadedScene{std::move(*scene), {}};
+}
+
+bool hasLight(const Scene& scene, const ScenePose& pose, const Lighting& lighting) {
+    return !lighting.lights.empty() || !lighting.sky.black() || hasEmission(scene, pose);
+}
+
+Result<LoadedSetup> loadSetup(const SceneOptions& options) {
+    auto loaded = readScene(options);
+    if (!loaded) return tl::unexpected(loaded.error());
+    LoadedSetup setup;
+    setup.warnings = std::move(loaded->warnings);
+    for (const std::string& warning : setup.warnings) printWarning(warning);
+    setup.scene = std::make_unique<Scene>(std::move(loaded->scene));
+    setup.pose = poseAt(*setup.scene, options.timeOfScene);
+    setup.exposure = options.exposure.value_or(setup.scene->exposure);
+
+    auto lighting = makeLighting(options, *setup.scene, setup.pose);
+    if (!lighting) return tl::unexpected(lighting.error());
+    setup.lighting = std::move(*lighting);
+    if (!hasLight(*setup.scene, setup.pose, setup.lighting))
+        return fail(ErrorCode::invalidArgument,
+                    fmt::format("'{}' has no light, its picture would be black; add one with --sun X,Y,Z,LUX, "
+                                "--point X,Y,Z,R,G,B or --sky R,G,B",
+                                options.scene));
+    if (triangleCount(*setup.scene, setup.pose) == 0)
+        return fail(
+            ErrorCode::invalidArgument,
+            fmt::format("'{}' has no triangles, there is nothing to light; choose another scene", options.scene));
+
+    const auto camera = makeCamera(options, setup.pose);
+    if (!camera) return tl::unexpected(camera.error());
+    setup.camera = *camera;
+    const auto grid = makeGrid(options, *setup.scene, setup.pose);
+    if (!grid) return tl::unexpected(grid.error());
+    setup.grid = *grid;
+    return setup;
+}
+
+}  // namespace probegi::tool

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "probegi/builtin_scenes.h"
+#include "probegi/field.h"
+#include "probegi/io.h"
+#include "probegi/tracer.h"
+#include "terminal.h"
+
+namespace probegi::tool {
+
+/// SCENE and everything on the command line that overrides what the scene says. Texts have passed their parser.
+struct SceneOptions {
+    std::string scene;      ///< a path, or builtin:NAME
+    BuiltinParams builtin;  ///< --wall, --albedo, --emission, --power, --radius
+    float timeOfScene = 0;  ///< seconds into the animations
+    int threads = 0;        ///< for makeContext
+
+    std::string camera;  ///< name or index; empty: the scene's first, else an overview
+    std::string lookFrom, lookAt;
+    std::optional<float> fovDegrees;  ///< vertical
+
+    std::vector<std::string> suns, points;  ///< where given, they replace the scene's lights of their kind
+    std::string sky;                        ///< R,G,B or a file
+
+    std::string volume, probes;     ///< --volume, --probes
+    std::optional<float> exposure;  ///< empty: the scene's suggestion
+};
+
+/// Adds SCENE, all overrides and --threads to a command.
+void addSceneOptions(CLI::App& command, SceneOptions& options);
+
+/// Adds only SCENE, the built-in scenes' parameters and --time-of-scene.
+void addSceneArgument(CLI::App& command, SceneOptions& options);
+
+/// A scene ready to be traced: what the file says with the overrides applied.
+struct LoadedSetup {
+    std::unique_ptr<Scene> scene;  ///< at an address that stays, for the tracer
+    ScenePose pose;
+    Lighting lighting;  ///< lights of no intensity are left out
+    PlacedCamera camera;
+    GridDesc grid;
+    float exposure = 1.0f;
+    std::vector<std::string> warnings;  ///< of the reader, one sentence each
+};
+
+/// Loads or makes the scene, and nothing else.
+Result<LoadedScene> readScene(const SceneOptions& options);
+
+/// Whether anything shines: a punctual light, a sky that is not black, an emissive triangle.
+bool hasLight(const Scene& scene, const ScenePose& pose, const Lighting& lighting);
+
+/// readScene, then the overrides. Warnings are also printed. A scene without any light is an error, for a picture of
+/// it would be black.
+Result<LoadedSetup> loadSetup(const SceneOptions& options);
+
+}  // namespace probegi::tool

@@ -1,0 +1,88 @@
+#include "terminal.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+namespace probegi::tool {
+
+namespace {
+
+constexpr double kQuietSeconds = 0.5;  // shorter stages draw nothing
+constexpr int kBarCells = 28;
+
+std::string oneLine(std::string_view text) {
+    std::string line(text);
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    while (!line.empty() && line.back() == ' ') line.pop_back();
+    return line;
+}
+
+std::string timeLeft(double seconds) {
+    if (seconds < 0) return {};
+    const int whole = int(seconds + 0.5);
+    if (whole < 60) return fmt::format(", {} s left", whole);
+    return fmt::format(", {} min {:02} s left", whole / 60, whole % 60);
+}
+
+// Rewrites one line of the terminal and takes it away at the end of the stage.
+class ProgressBar {
+public:
+    void draw(const ProgressReport& report) {
+        if (report.fraction >= 1.0) return clear();
+        if (report.secondsElapsed < kQuietSeconds) return;
+        const int filled = std::clamp(int(report.fraction * kBarCells), 0, kBarCells);
+        const std::string cells = std::string(filled, '#') + std::string(kBarCells - filled, '.');
+        write(fmt::format("\r\033[K{:<22} [{}] {:3.0f} %{}", report.stage, cells, report.fraction * 100,
+                          timeLeft(report.secondsLeft)));
+        m_visible = true;
+    }
+
+    void clear() {
+        if (m_visible) write("\r\033[K");
+        m_visible = false;
+    }
+
+private:
+    static void write(const std::string& text) {
+        std::fputs(text.c_str(), stderr);
+        std::fflush(stderr);
+    }
+
+    bool m_visible = false;
+};
+
+}  // namespace
+
+Result<Context> makeContext(int threads) {
+    ContextDesc desc;
+    desc.threads = threads;
+    const auto bar = std::make_shared<ProgressBar>();
+    desc.log = [bar](LogLevel level, std::string_view line) {
+        if (level != LogLevel::warning) return;
+        bar->clear();
+        printWarning(line);
+    };
+    if (isatty(STDERR_FILENO))
+        desc.progress = [bar](const ProgressReport& report) {
+            bar->draw(report);
+            return true;
+        };
+    return Context::create(desc);
+}
+
+void printWarning(std::string_view sentence) {
+    fmt::print(stderr, "warning: {}\n", oneLine(sentence));
+}
+
+int printError(const Error& error) {
+    fmt::print(stderr, "error: {}\n", oneLine(error.message));
+    return 1;
+}
+
+}  // namespace probegi::tool
