@@ -38,6 +38,7 @@ struct Surface {
     glm::vec3 emission{0.0f};            ///< radiance towards the ray's origin, W sr^-1 m^-2 (0 on a backface)
     float metallic = 0.0f;
     float roughness = 1.0f;
+    std::int32_t material = -1;          ///< index into Scene::materials; -1: the tracer knows no materials
     bool backface = false;               ///< the back of a single-sided material: solid wall
 };
 
