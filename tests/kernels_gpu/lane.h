@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cassert>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kernels/language.h"
+
+namespace probegi::kernels {
+
+/// One value that a lane gave, and how closely the GPU must agree.
+struct Expected {
+    std::uint32_t bits = 0;
+    float tolerance = 0;
+    bool exact = false;  ///< an integer: bit for bit
+};
+
+/// The C++ side of shaders/lane.h: reads the same inputs and keeps what the GPU should have written.
+struct Lane {
+    std::span<const std::uint32_t> inputs;
+    std::vector<Expected> outputs = {};
+    std::size_t nextInput = 0;
+    bool ranOut = false;  ///< took more inputs than there are
+};
+
+inline uint takeBits(Lane& lane) {
+    if (lane.nextInput >= lane.inputs.size()) {
+        lane.ranOut = true;
+        return 0;
+    }
+    return lane.inputs[lane.nextInput++];
+}
+
+inline void giveBits(Lane& lane, uint value) {
+    lane.outputs.push_back({.bits = value, .exact = true});
+}
+
+inline void give(Lane& lane, float value, float tolerance) {
+    lane.outputs.push_back({.bits = floatBitsToUint(value), .tolerance = tolerance});
+}
+
+}  // namespace probegi::kernels
+
+#include "kernels_gpu/shaders/lane.h"
