@@ -23,4 +23,7 @@ Result<Comparison> compareImages(const HdrImage& test, const HdrImage& reference
 /// Colours 0..1 from dark to bright (perceptually ordered map), for error pictures. Display-referred sRGB in 0..1.
 HdrImage heatmap(const HdrImage& values);
 
+/// Display-referred sRGB values (what heatmap returns) as linear ones: what writeImage takes.
+HdrImage linearFromDisplay(const HdrImage& display);
+
 }  // namespace probegi

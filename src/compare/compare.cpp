@@ -1,0 +1,97 @@
+#include "probegi/compare.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <new>
+
+#include "compare/flip.h"
+
+namespace probegi {
+
+namespace {
+
+Result<void> check(const HdrImage& image, const char* which) {
+    if (image.width < 1 || image.height < 1 || image.pixels.size() != std::size_t(image.width) * image.height)
+        return fail(ErrorCode::invalidArgument, fmt::format("The {} picture is empty: give one with pixels.", which));
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const glm::vec3 v = image.pixels[i];
+        if (std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z)) continue;
+        return fail(
+            ErrorCode::invalidArgument,
+            fmt::format("The {} picture has a value that is not finite at pixel ({}, {}): it cannot be compared; "
+                        "render it again.",
+                        which, i % std::size_t(image.width), i / std::size_t(image.width)));
+    }
+    return {};
+}
+
+HdrImage displayed(const HdrImage& image, const ToneMap& toneMap) {
+    HdrImage out(image.width, image.height);
+    for (std::size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] = toDisplay(image.pixels[i], toneMap);
+    return out;
+}
+
+double squaredDistance(glm::vec3 a, glm::vec3 b) {
+    const double x = double(a.x) - b.x;
+    const double y = double(a.y) - b.y;
+    const double z = double(a.z) - b.z;
+    return x * x + y * y + z * z;
+}
+
+/// Relative squared error of one channel; the constant keeps black pixels of the reference from dominating.
+double relativeSquare(float t, float r) {
+    const double d = double(t) - r;
+    return d * d / (double(r) * r + 0.01);
+}
+
+double relmse(const HdrImage& test, const HdrImage& reference) {
+    double total = 0;
+    for (std::size_t i = 0; i < test.pixels.size(); ++i)
+        for (int channel = 0; channel < 3; ++channel)
+            total += relativeSquare(test.pixels[i][channel], reference.pixels[i][channel]);
+    return total / double(3 * test.pixels.size());
+}
+
+Comparison compareChecked(const HdrImage& test, const HdrImage& reference, const ToneMap& toneMap) {
+    const HdrImage shownTest = displayed(test, toneMap);
+    const HdrImage shownReference = displayed(reference, toneMap);
+    const Plane flip = flip::differenceMap(shownTest, shownReference);
+
+    Comparison out{{}, HdrImage(test.width, test.height), HdrImage(test.width, test.height)};
+    double squares = 0;
+    double flipTotal = 0;
+    for (std::size_t i = 0; i < flip.values.size(); ++i) {
+        // Mask paper, section 4.2: E(x) per pixel, and E_RMSE as the root of the mean of its square.
+        const double square = squaredDistance(shownTest.pixels[i], shownReference.pixels[i]) / 3;
+        squares += square;
+        flipTotal += flip.values[i];
+        out.rmseMap.pixels[i] = glm::vec3(float(std::sqrt(square)));
+        out.flipMap.pixels[i] = glm::vec3(flip.values[i]);
+    }
+    const double count = double(flip.values.size());
+    out.difference = {std::sqrt(squares / count), relmse(test, reference), flipTotal / count};
+    return out;
+}
+
+}  // namespace
+
+Result<Comparison> compareImages(const HdrImage& test, const HdrImage& reference, const ToneMap& toneMap) {
+    if (auto ok = check(test, "test"); !ok) return tl::unexpected(ok.error());
+    if (auto ok = check(reference, "reference"); !ok) return tl::unexpected(ok.error());
+    if (test.width != reference.width || test.height != reference.height)
+        return fail(ErrorCode::invalidArgument,
+                    fmt::format("The pictures differ in size ({}x{} and {}x{}): render both at the same --size.",
+                                test.width, test.height, reference.width, reference.height));
+    if (!(toneMap.exposure > 0) || !std::isfinite(toneMap.exposure))
+        return fail(ErrorCode::invalidArgument,
+                    fmt::format("The exposure is {}: give a number above 0.", toneMap.exposure));
+    try {
+        return compareChecked(test, reference, toneMap);
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::outOfMemory,
+                    fmt::format("Not enough memory to compare pictures of {}x{} pixels.", test.width, test.height));
+    }
+}
+
+}  // namespace probegi
