@@ -1,0 +1,11 @@
+#pragma once
+
+#include <embree3/rtcore.h>
+
+namespace probegi {
+
+/// Embree filter for intersection and occlusion: rejects the hits where a masked material's alpha is below its cutoff.
+/// The geometry's user pointer must be an EmbreeFilterData.
+void rejectTransparent(const RTCFilterFunctionNArguments* args);
+
+}  // namespace probegi

@@ -1,0 +1,116 @@
+#include "cpu/embree_scene.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <new>
+
+#include "core/context_impl.h"
+#include "cpu/embree_filter.h"
+
+namespace probegi {
+
+namespace {
+
+ErrorCode errorCode(RTCError error) {
+    return error == RTC_ERROR_OUT_OF_MEMORY ? ErrorCode::outOfMemory : ErrorCode::invalidArgument;
+}
+
+/// Embree inverts an instance's transform; one that flattens the mesh has no inverse and is applied to it instead.
+bool invertible(const glm::mat4& m) {
+    const glm::vec3 x(m[0]), y(m[1]), z(m[2]);
+    const float volume = std::abs(glm::dot(glm::cross(x, y), z));
+    return volume > 1e-6f * glm::length(x) * glm::length(y) * glm::length(z);
+}
+
+}  // namespace
+
+void EmbreeScene::gather(const Scene& scene, const ScenePose& pose) {
+    m_materials = makeSurfaceMaterials(scene);
+    std::vector<int> uses(scene.meshes.size(), 0);
+    for (const Instance& instance : pose.instances) ++uses[std::size_t(instance.mesh)];
+    std::vector<int> groupOf(scene.meshes.size(), -1);
+    for (const Instance& instance : pose.instances) {
+        const std::size_t mesh = std::size_t(instance.mesh);
+        if (uses[mesh] == 1 || !invertible(instance.toWorld)) {
+            appendMesh(m_world, scene.meshes[mesh], instance.toWorld, m_materials);
+            continue;
+        }
+        if (groupOf[mesh] < 0) {
+            groupOf[mesh] = int(m_groups.size());
+            appendMesh(m_groups.emplace_back(), scene.meshes[mesh], glm::mat4(1.0f), m_materials);
+        }
+        if (m_groups[std::size_t(groupOf[mesh])].empty()) continue;
+        m_placements.push_back({groupOf[mesh], instance.toWorld, normalMatrix(instance.toWorld)});
+    }
+}
+
+void EmbreeScene::attachMesh(RTCScene scene, const SurfaceMesh& mesh, int geometry) {
+    if (mesh.empty()) return;
+    const EmbreeGeometry handle(rtcNewGeometry(m_device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+    rtcSetSharedGeometryBuffer(handle.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.vertices.data(), 0,
+                               sizeof(SurfaceVertex), mesh.vertices.size());
+    rtcSetSharedGeometryBuffer(handle.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
+                               sizeof(SurfaceTriangle), mesh.triangles.size());
+    rtcSetGeometryBuildQuality(handle.get(), RTC_BUILD_QUALITY_HIGH);
+    if (geometry == SurfaceGroup::kMasked) {
+        m_filters.push_back(std::make_unique<EmbreeFilterData>(EmbreeFilterData{&mesh, m_materials.data()}));
+        rtcSetGeometryUserData(handle.get(), m_filters.back().get());
+        rtcSetGeometryIntersectFilterFunction(handle.get(), rejectTransparent);
+        rtcSetGeometryOccludedFilterFunction(handle.get(), rejectTransparent);
+    }
+    rtcCommitGeometry(handle.get());
+    rtcAttachGeometryByID(scene, handle.get(), unsigned(geometry));
+}
+
+EmbreeSceneHandle EmbreeScene::makeScene(const SurfaceGroup& group) {
+    EmbreeSceneHandle scene(rtcNewScene(m_device.get()));
+    // ROBUST: rays through shared edges and vertices never slip between the triangles.
+    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
+    attachMesh(scene.get(), group.opaque, SurfaceGroup::kOpaque);
+    attachMesh(scene.get(), group.masked, SurfaceGroup::kMasked);
+    return scene;
+}
+
+void EmbreeScene::build() {
+    for (const SurfaceGroup& group : m_groups) {
+        m_groupScenes.push_back(makeScene(group));
+        rtcCommitScene(m_groupScenes.back().get());
+    }
+    m_top = makeScene(m_world);
+    for (std::size_t i = 0; i < m_placements.size(); ++i) {
+        const EmbreeGeometry instance(rtcNewGeometry(m_device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+        rtcSetGeometryInstancedScene(instance.get(), m_groupScenes[std::size_t(m_placements[i].group)].get());
+        rtcSetGeometryTransform(instance.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &m_placements[i].toWorld[0][0]);
+        rtcCommitGeometry(instance.get());
+        rtcAttachGeometryByID(m_top.get(), instance.get(), kFirstInstance + unsigned(i));
+    }
+    rtcCommitScene(m_top.get());
+    RTCBounds bounds;
+    rtcGetSceneBounds(m_top.get(), &bounds);
+    if (bounds.lower_x <= bounds.upper_x)
+        m_bounds = {{bounds.lower_x, bounds.lower_y, bounds.lower_z}, {bounds.upper_x, bounds.upper_y, bounds.upper_z}};
+}
+
+Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(const Context& context, const Scene& scene,
+                                                         const ScenePose& pose) try {
+    std::unique_ptr<EmbreeScene> result(new EmbreeScene);
+    result->gather(scene, pose);
+    result->m_device.reset(rtcNewDevice(nullptr));
+    if (!result->m_device)
+        return fail(errorCode(rtcGetDeviceError(nullptr)),
+                    "Embree could not make a device; is this processor supported?");
+    // Within the arena Embree's tasks keep to the context's threads; its own "threads" option would cap all of TBB.
+    context.impl().arena.execute([&] { result->build(); });
+    if (const RTCError error = rtcGetDeviceError(result->m_device.get()); error != RTC_ERROR_NONE)
+        return fail(errorCode(error), fmt::format("Embree could not build the scene (its error code {}); use fewer "
+                                                  "triangles or free memory",
+                                                  int(error)));
+    return result;
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, "not enough memory for the scene's triangles; use fewer triangles");
+}
+
+}  // namespace probegi
