@@ -1,6 +1,6 @@
 // One random case of a kernel test, in GLSL and C++ at once: a shader takes random inputs and gives results, and the
 // same text, compiled as C++, says what they should have been. `tolerance` is absolute for values up to 1 and relative
-// above; not-a-number agrees with nothing but itself.
+// above; not-a-number agrees with nothing but itself. Take once a statement: C++ does not order operands.
 #ifndef PROBEGI_TESTS_KERNELS_GPU_SHADERS_LANE_H
 #define PROBEGI_TESTS_KERNELS_GPU_SHADERS_LANE_H
 

@@ -1,5 +1,5 @@
 #include "lane.h"
-//
+
 #include "kernels/language.h"
 
 // The built-in functions that the kernels may use. Vulkan asks for 2^-11 of sin and cos and leaves tan and pow loose;

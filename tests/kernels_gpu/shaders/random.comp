@@ -1,5 +1,5 @@
 #include "lane.h"
-//
+
 #include "kernels/random.h"
 
 // Integers and powers of two: exact on both sides.

@@ -1,0 +1,13 @@
+#include "lane.h"
+
+#include "kernels/octahedral_texel.h"
+
+void evaluate(INOUT(Lane) lane) {
+    const int size = 4 + 2 * takeIndex(lane, 15);
+    const int x = takeIndex(lane, size + 2) - 1;
+    const int y = takeIndex(lane, size + 2) - 1;
+    const ivec2 inside = octWrapTexel(x, y, size);
+    giveBits(lane, uint(inside.x));
+    giveBits(lane, uint(inside.y));
+    giveVec3(lane, octTexelDirection(inside.x, inside.y, size), 1e-6f);
+}

@@ -1,0 +1,24 @@
+#include "lane.h"
+
+#include "kernels/probe_blend.h"
+
+// The hysteresis jumps at its thresholds; values are drawn continuously, so that none lies within rounding of one.
+void evaluate(INOUT(Lane) lane) {
+    const vec3 texel = takeDirection(lane);
+    const vec3 ray = takeDirection(lane);
+    const vec3 oldStored = takeVector(lane, 0.0f, 2.0f);
+    const vec3 newMean = takeVector(lane, 0.0f, 30.0f);
+    const float signedDistance = takeBetween(lane, -10.0f, 10.0f);
+    BlendRule rule;
+    rule.hysteresis = takeBetween(lane, 0.0f, 0.999f);
+    rule.significantChange = takeBetween(lane, 0.0f, 0.5f);
+    rule.newDistribution = takeBetween(lane, 0.0f, 1.0f);
+
+    give(lane, irradianceWeight(texel, ray), 1e-6f);
+    give(lane, visibilityWeight(texel, ray, 50.0f), 2e-5f);
+    give(lane, visibilityDistance(signedDistance, 3.0f), 1e-6f);
+    give(lane, visibilityDistance(1e30f, 3.0f), 1e-6f);
+    give(lane, texelHysteresis(oldStored, 0.5f * newMean, rule), 1e-6f);
+    giveVec3(lane, blendEncoded(oldStored, newMean, rule), 2e-6f);
+    giveVec3(lane, blendLinear(oldStored, newMean, rule.hysteresis), 2e-6f);
+}

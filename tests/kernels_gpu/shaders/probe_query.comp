@@ -1,0 +1,21 @@
+#include "lane.h"
+
+#include "kernels/probe_query.h"
+
+void evaluate(INOUT(Lane) lane) {
+    const vec3 normal = takeDirection(lane);
+    const vec3 toViewer = takeDirection(lane);
+    const float unit = takeUnit(lane);
+    const float mean = takeBetween(lane, 0.0f, 2.0f);
+    const float distance = takeBetween(lane, 0.0f, 4.0f);
+    const float variance = takeUnit(lane);
+
+    giveVec3(lane, selfShadowBias(normal, toViewer, 1.5f, 0.3f), 1e-6f);
+    give(lane, trilinearFactor(0.0f, unit), 1e-6f);
+    give(lane, trilinearFactor(1.0f, unit), 1e-6f);
+    give(lane, backfaceWeight(dot(normal, toViewer)), 1e-6f);
+    give(lane, chebyshevWeight(mean, mean * mean + 0.01f + variance, distance), 2e-4f);
+    give(lane, chebyshevWeight(0.0f, 0.0f, unit + 0.01f), 1e-6f);
+    give(lane, chebyshevWeight(0.0f, 0.0f, 0.0f), 1e-6f);
+    give(lane, crushWeight(unit), 1e-6f);
+}

@@ -1,0 +1,12 @@
+#include "lane.h"
+
+#include "kernels/ray_offset.h"
+
+// A range that is a power of two: the random position itself is then exact.
+void evaluate(INOUT(Lane) lane) {
+    const vec3 position = takeVector(lane, -1024.0f, 1024.0f);
+    const vec3 normal = takeDirection(lane);
+    const float magnitude = takeBetween(lane, 1.0f, 2000.0f);
+    give(lane, rayOffset(position, magnitude), 1e-8f);
+    giveVec3(lane, offsetOrigin(position, normal, magnitude), 3e-7f);
+}

@@ -1,0 +1,19 @@
+#include "lane.h"
+
+#include "kernels/ray_set.h"
+
+void giveRotation(INOUT(Lane) lane, mat3 r) {
+    for (int column = 0; column < 3; ++column) giveVec3(lane, r[column], 5e-6f);
+}
+
+// sin and cos of up to 2 pi are all that differs.
+void evaluate(INOUT(Lane) lane) {
+    const uint count = 8u + takeBits(lane) % 4089u;
+    const uint index = takeBits(lane) % count;
+    giveVec3(lane, sphericalFibonacci(index, count), 5e-6f);
+    const float u1 = takeUnit(lane);
+    const vec2 u = takeUnit2(lane);
+    giveRotation(lane, randomRotation(u1, u.x, u.y));
+    const uint seed = takeBits(lane);
+    giveRotation(lane, frameRotation(seed, takeBits(lane)));
+}
