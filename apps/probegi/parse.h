@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <glm/vec3.hpp>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,23 @@ Result<PictureSize> parseSize(std::string_view text);  ///< "WxH", each 1..16384
 
 /// CLI11's own range check lets NaN through and does not say which option failed.
 CLI::Validator inRange(double lower, double upper);
+
+/// Turns the name of an enumerator into its number, which CLI11 reads; other names are refused with the list of names.
+template <class Enum>
+CLI::Validator oneOf(const std::map<std::string, Enum>& names) {
+    return CLI::Validator(
+        [names](std::string& text) {
+            const auto found = names.find(text);
+            if (found != names.end()) {
+                text = std::to_string(int(found->second));
+                return std::string();
+            }
+            std::string known;
+            for (const auto& [name, value] : names) known += (known.empty() ? "" : ", ") + name;
+            return "'" + text + "' is none of " + known;
+        },
+        "");
+}
 
 /// Turns one of the parsers above into a check that CLI11 runs while it reads the command line.
 template <class Parser>

@@ -1,0 +1,75 @@
+#include "probegi/compare.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "output.h"
+#include "parse.h"
+#include "terminal.h"
+
+namespace probegi::tool {
+
+namespace {
+
+struct CompareOptions {
+    std::string test, reference;
+    std::string heatmap;
+    bool json = false;
+    float exposure = 1.0f;
+};
+
+Result<void> compare(const CompareOptions& options) {
+    const bool writesMap = !options.heatmap.empty();
+    if (writesMap)
+        if (auto checked = checkOutput(options.heatmap, pictureExtensions()); !checked) return checked;
+    const auto test = readImage(options.test);
+    if (!test) return tl::unexpected(test.error());
+    const auto reference = readImage(options.reference);
+    if (!reference) return tl::unexpected(reference.error());
+    if (test->width != reference->width || test->height != reference->height)
+        return fail(
+            ErrorCode::invalidArgument,
+            fmt::format("'{}' is {}x{} and '{}' is {}x{}; pictures must be of one size to be compared", options.test,
+                        test->width, test->height, options.reference, reference->width, reference->height));
+    const auto comparison = compareImages(*test, *reference, ToneMap{options.exposure, false});
+    if (!comparison) return tl::unexpected(comparison.error());
+    if (writesMap) {
+        const HdrImage map = linearFromDisplay(heatmap(comparison->flipMap));
+        if (auto written = writeImage(options.heatmap, map); !written) return written;
+    }
+    const ImageDifference& d = comparison->difference;
+    if (options.json)
+        fmt::print("{}\n", nlohmann::ordered_json{{"rmse", d.rmse}, {"relmse", d.relmse}, {"flip", d.flip}}.dump(2));
+    else
+        fmt::print(
+            "rmse    {:.6f}   root mean square error of display values, 0..1\n"
+            "relmse  {:.6f}   mean relative square error of linear values\n"
+            "flip    {:.6f}   mean visible difference (FLIP), 0..1\n",
+            d.rmse, d.relmse, d.flip);
+    return {};
+}
+
+}  // namespace
+
+void addCompareCommand(CLI::App& app, int& exitCode) {
+    CLI::App* command = app.add_subcommand("compare", "measure how far a picture is from a reference picture");
+    const auto options = std::make_shared<CompareOptions>();
+    command->add_option("A", options->test, "the picture to test: .exr, .hdr, .png or .jpg")->type_name("")->required();
+    command->add_option("B", options->reference, "the reference, of the same size")->type_name("")->required();
+    command->add_option("--heatmap", options->heatmap, "write where they differ (FLIP, dark to bright): .png or .exr")
+        ->type_name("FILE");
+    command->add_flag("--json", options->json, "print JSON with the keys rmse, relmse and flip");
+    command->add_option("--exposure", options->exposure, "factor on the light before display values are compared")
+        ->type_name("FACTOR")
+        ->check(inRange(1e-9, 1e9))
+        ->capture_default_str();
+    command->footer("Example: probegi compare field.exr reference.exr --heatmap difference.png");
+    command->callback([options, &exitCode] {
+        if (const auto done = compare(*options); !done) exitCode = printError(done.error());
+    });
+}
+
+}  // namespace probegi::tool

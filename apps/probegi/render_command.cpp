@@ -1,0 +1,202 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "aov.h"
+#include "commands.h"
+#include "output.h"
+#include "parse.h"
+#include "probegi/reference.h"
+#include "render_stats.h"
+#include "scene_setup.h"
+
+namespace probegi::tool {
+
+namespace {
+
+enum class Method { none, leaky, ddgi, reference };
+
+constexpr int kDefaultReferenceSamples = 64;
+constexpr float kTolerance = 0.01f;  // relative change at which a field counts as converged
+constexpr int kMaxFrames = 256;
+
+struct RenderOptions {
+    SceneOptions scene;
+    std::string output, stats;
+    Method method = Method::ddgi;
+    Aov aov = Aov::color;
+    std::string size = "960x540";
+    int antialias = 2;
+    bool diffuseOnly = false;
+    bool filmic = false;
+    std::uint64_t seed = 1;
+    int rays = FieldDesc{}.raysPerProbe;
+    std::optional<int> frames;
+    std::optional<int> samplesPerPixel;
+    std::optional<double> seconds;
+};
+
+const char* const kFooter =
+    R"(Light is in linear Rec.709: radiance in W/sr/m2, irradiance in W/m2; lengths in metres; +Y is up.
+An .exr holds the linear values; a .png is 8-bit sRGB after --exposure.
+As .png, normals are 0.5 + 0.5 n, depth fades to black at the farthest point, irradiance is what a white matt surface
+would send back.
+
+Example: probegi render builtin:cornell -o cornell.png
+Example: probegi render sponza.glb -o sponza.exr --camera nave --sky 0.3,0.4,0.6 --size 1920x1080 --stats stats.json
+Example: probegi render builtin:house -o truth.png --method reference --time 30)";
+
+PictureDesc pictureDesc(const RenderOptions& options, const LoadedSetup& setup) {
+    const PictureSize size = *parseSize(options.size);
+    return {setup.camera, size.width, size.height, options.antialias, options.diffuseOnly};
+}
+
+Result<std::optional<Field>> makeField(const Context& context, const Tracer& tracer, const LoadedSetup& setup,
+                                       const RenderOptions& options, RenderStats& stats) {
+    if (options.method == Method::none) return std::nullopt;
+    FieldDesc desc;
+    desc.grid = setup.grid;
+    desc.raysPerProbe = options.rays;
+    desc.seed = options.seed;
+    desc.guard = options.method == Method::leaky ? LeakGuard::none : LeakGuard::moments;
+    auto field = Field::create(context, desc);
+    if (!field) return tl::unexpected(field.error());
+    stats.probes = probeCount(desc.grid);
+    stats.raysPerProbe = desc.raysPerProbe;
+    const auto record = [&](const UpdateTimes& times) { stats.updates.push_back(times); };
+    if (!options.frames) {
+        const auto done = field->converge(tracer, setup.lighting, kTolerance, kMaxFrames, record);
+        if (!done) return tl::unexpected(done.error());
+        return std::move(*field);
+    }
+    for (int frame = 0; frame < *options.frames; ++frame) {
+        const auto times = field->update(tracer, setup.lighting);
+        if (!times) return tl::unexpected(times.error());
+        record(*times);
+    }
+    return std::move(*field);
+}
+
+Result<Picture> renderWithField(const Context& context, const Tracer& tracer, const LoadedSetup& setup,
+                                const RenderOptions& options, RenderStats& stats) {
+    const auto field = makeField(context, tracer, setup, options, stats);
+    if (!field) return tl::unexpected(field.error());
+    auto rendered =
+        renderPicture(context, tracer, setup.lighting, *field ? &**field : nullptr, pictureDesc(options, setup));
+    if (!rendered) return tl::unexpected(rendered.error());
+    stats.pictureMs = rendered->times.total;
+    return std::move(rendered->picture);
+}
+
+Result<Picture> renderReference(const Context& context, const Tracer& tracer, const LoadedSetup& setup,
+                                const RenderOptions& options, RenderStats& stats) {
+    const auto pathTracer = PathTracer::create(context, *setup.scene, setup.pose, tracer, setup.lighting);
+    if (!pathTracer) return tl::unexpected(pathTracer.error());
+    ReferenceDesc desc;
+    desc.picture = pictureDesc(options, setup);
+    desc.seconds = options.seconds.value_or(0);
+    desc.samplesPerPixel = options.samplesPerPixel.value_or(options.seconds ? 0 : kDefaultReferenceSamples);
+    desc.seed = options.seed;
+    auto rendered = pathTracer->render(desc);
+    if (!rendered) return tl::unexpected(rendered.error());
+    stats.pictureMs = rendered->seconds * 1000;
+    return std::move(rendered->picture);
+}
+
+void warnAboutUnusedOptions(const RenderOptions& options) {
+    const bool reference = options.method == Method::reference;
+    if (!reference && (options.samplesPerPixel || options.seconds))
+        printWarning("--spp and --time act on --method reference only");
+    if ((reference || options.method == Method::none) && options.frames)
+        printWarning("--frames acts on --method ddgi and leaky only");
+}
+
+Result<void> render(const RenderOptions& options) {
+    if (auto checked = checkOutput(options.output, pictureExtensions()); !checked) return checked;
+    if (!options.stats.empty())
+        if (auto checked = checkOutput(options.stats, {}); !checked) return checked;
+    warnAboutUnusedOptions(options);
+    const auto context = makeContext(options.scene.threads);
+    if (!context) return tl::unexpected(context.error());
+    const auto setup = loadSetup(options.scene);
+    if (!setup) return tl::unexpected(setup.error());
+    const auto tracer = makeEmbreeTracer(*context, *setup->scene, setup->pose);
+    if (!tracer) return tl::unexpected(tracer.error());
+
+    RenderStats stats;
+    const auto draw = options.method == Method::reference ? renderReference : renderWithField;
+    const auto picture = draw(*context, **tracer, *setup, options, stats);
+    if (!picture) return tl::unexpected(picture.error());
+    const ToneMap toneMap{setup->exposure, options.filmic};
+    if (auto written = writeAov(options.output, *picture, options.aov, toneMap); !written) return written;
+    return options.stats.empty() ? Result<void>() : writeText(options.stats, statsJson(stats));
+}
+
+void addPictureOptions(CLI::App& command, RenderOptions& options) {
+    static const std::map<std::string, Aov> kAovs{
+        {"color", Aov::color}, {"irradiance", Aov::irradiance}, {"normal", Aov::normal},    {"albedo", Aov::albedo},
+        {"depth", Aov::depth}, {"direct", Aov::direct},         {"indirect", Aov::indirect}};
+    command.add_option("-o,--output", options.output, "the picture: .png or .exr")->type_name("FILE")->required();
+    command.add_option("--size", options.size, "pixels, each side 1 to 16384")
+        ->type_name("WxH")
+        ->check(parsedBy(parseSize))
+        ->capture_default_str();
+    command.add_option("--aov", options.aov, "write this layer instead of the picture")
+        ->type_name("irradiance|normal|albedo|depth|direct|indirect")
+        ->transform(oneOf(kAovs));
+    command.add_option("--antialias", options.antialias, "primary rays per pixel and axis, 1 to 8 (not for reference)")
+        ->type_name("N")
+        ->check(inRange(1, 8))
+        ->capture_default_str();
+    command.add_flag("--filmic", options.filmic,
+                     "bright light of a .png rolls off smoothly instead of clipping at white");
+    command.add_flag("--diffuse-only", options.diffuseOnly, "all materials as matt surfaces of their base colour");
+    command.add_option("--stats", options.stats, "write probes, frames, times in ms and memory as JSON")
+        ->type_name("FILE");
+}
+
+void addMethodOptions(CLI::App& command, RenderOptions& options) {
+    static const std::map<std::string, Method> kMethods{
+        {"none", Method::none}, {"leaky", Method::leaky}, {"ddgi", Method::ddgi}, {"reference", Method::reference}};
+    command
+        .add_option("--method", options.method,
+                    "indirect light: none, from probes without a visibility test (leaky), from probes with one (ddgi, "
+                    "the default), or all light path traced (reference)")
+        ->type_name("none|leaky|ddgi|reference")
+        ->transform(oneOf(kMethods));
+    command.add_option("--rays", options.rays, "rays per probe and update, 8 to 4096")
+        ->type_name("N")
+        ->check(inRange(8, 4096))
+        ->capture_default_str();
+    command
+        .add_option("--frames", options.frames, "updates of the probes before the picture (default: until converged)")
+        ->type_name("N")
+        ->check(inRange(1, 1e6));
+    command.add_option("--spp", options.samplesPerPixel, "reference: samples per pixel (default 64 without --time)")
+        ->type_name("N")
+        ->check(inRange(1, 1e6));
+    command.add_option("--time", options.seconds, "reference: stop after so many seconds")
+        ->type_name("SECONDS")
+        ->check(inRange(0.001, 1e6));
+    command.add_option("--seed", options.seed, "another number, other noise; equal numbers, equal pictures")
+        ->type_name("N")
+        ->capture_default_str();
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& app, int& exitCode) {
+    CLI::App* command = app.add_subcommand("render", "render a picture of a scene");
+    const auto options = std::make_shared<RenderOptions>();
+    addPictureOptions(*command, *options);
+    addMethodOptions(*command, *options);
+    addSceneOptions(*command, options->scene);
+    command->footer(kFooter);
+    command->callback([options, &exitCode] {
+        if (const auto done = render(*options); !done) exitCode = printError(done.error());
+    });
+}
+
+}  // namespace probegi::tool

@@ -1,0 +1,39 @@
+#include "render_stats.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "output.h"
+
+namespace probegi::tool {
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    if (values.size() % 2 == 1) return *middle;
+    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+UpdateTimes medianTimes(const std::vector<UpdateTimes>& updates) {
+    const auto of = [&](double UpdateTimes::*stage) {
+        std::vector<double> values;
+        for (const UpdateTimes& times : updates) values.push_back(times.*stage);
+        return median(std::move(values));
+    };
+    return {of(&UpdateTimes::trace), of(&UpdateTimes::shade), of(&UpdateTimes::blend), of(&UpdateTimes::total)};
+}
+
+std::string statsJson(const RenderStats& stats) {
+    const UpdateTimes ms = medianTimes(stats.updates);
+    const nlohmann::ordered_json json{
+        {"probes", stats.probes},
+        {"raysPerProbe", stats.raysPerProbe},
+        {"frames", stats.updates.size()},
+        {"updateMs", {{"trace", ms.trace}, {"shade", ms.shade}, {"blend", ms.blend}, {"total", ms.total}}},
+        {"pictureMs", stats.pictureMs},
+        {"peakMemoryBytes", peakMemoryBytes()}};
+    return json.dump(2) + "\n";
+}
+
+}  // namespace probegi::tool
