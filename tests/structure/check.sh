@@ -1,0 +1,115 @@
+#!/usr/bin/env bash
+# The rules of docs/architecture.md that a compiler does not check. Usage: check.sh RULE [PROJECT_FOLDER]
+# Rules: layers public_headers examples sizes assets words. Prints what breaks the rule; exit code 1 if anything does.
+set -euo pipefail
+shopt -s nullglob globstar
+
+rule=${1:?name a rule: layers, public_headers, examples, sizes, assets or words}
+cd "${2:-$(dirname "${BASH_SOURCE[0]}")/../..}"
+complaints=0
+complain() {
+    echo "$*"
+    complaints=1
+}
+
+# Files of the project; in an unpacked archive, which has no git, everything but build folders.
+project_files() {
+    git ls-files 2>/dev/null || find . -type f -not -path './build*' -not -path './out/*' -printf '%P\n'
+}
+
+# What each folder of src/ may include besides itself: the layers below it. Kernels may be included by all.
+declare -A below=(
+    [kernels]=""
+    [core]="kernels"
+    [scene]="core kernels"
+    [io]="scene core kernels"
+    [field]="scene core kernels"
+    [compare]="scene core kernels"
+    [cpu]="field scene core kernels"
+    [reference]="cpu field scene core kernels"
+    [render]="cpu field scene core kernels"
+)
+
+# path:line of each quoted include whose path begins with a folder name, as "file folder".
+folder_includes() {
+    grep -HoP '^\s*#\s*include\s+"\K[a-z_]+(?=/)' "$@" | tr ':' ' ' || true
+}
+
+check_layers() {
+    local folder file included
+    for folder in src/*/; do
+        folder=$(basename "$folder")
+        if [[ ! -v "below[$folder]" ]]; then
+            complain "src/$folder is a layer that tests/structure/check.sh does not know; say there what it may include"
+            continue
+        fi
+        while read -r file included; do
+            [[ $included == probegi || $included == "$folder" || " ${below[$folder]} " == *" $included "* ]] ||
+                complain "$file includes $included/, which is not below $folder"
+            [[ $included != probegi || $folder != kernels ]] || complain "$file: a kernel includes the public API"
+        done < <(folder_includes /dev/null src/"$folder"/**/*.{h,cpp})
+    done
+    while read -r file included; do
+        [[ $included == probegi ]] || complain "$file: the tool may include public headers only, not $included/"
+    done < <(folder_includes /dev/null apps/**/*.{h,cpp})
+}
+
+check_public_headers() {
+    local file header
+    while IFS=: read -r file header; do
+        case "$header" in
+            \<*.h\> | \<embree* | \<tbb* | \<vulkan* | \<Eigen* | \<fmt* | \<nlohmann*)
+                complain "$file exposes $header to users"
+                ;;
+            \<*) ;;
+            \"probegi/*) ;;
+            *) complain "$file includes $header, which is not installed" ;;
+        esac
+    done < <(grep -HoP '^\s*#\s*include\s+\K[<"][^>"]+[>"]' include/probegi/*.h)
+    if grep -nE '\b(RTC[A-Z][A-Za-z]*|Vk[A-Z][A-Za-z]*|vk::|tbb::|Eigen::|fmt::)' include/probegi/*.h; then
+        complain "a public header names a type of a library that users need not know"
+    fi
+}
+
+check_examples() {
+    local file header
+    while IFS=: read -r file header; do
+        complain "$file includes $header: examples use the public API only"
+    done < <(grep -HoP '^\s*#\s*include\s+"\K(?!probegi/)[^"]+' /dev/null examples/**/*.{h,cpp} || true)
+}
+
+check_sizes() {
+    local file lines
+    while read -r file; do
+        [[ -f $file && $file =~ \.(h|cpp|comp|sh|cmake|js|in)$|CMakeLists\.txt$ ]] || continue
+        lines=$(wc -l <"$file")
+        ((lines <= 600)) || complain "$file has $lines lines; the limit is 600"
+    done < <(project_files)
+}
+
+check_assets() {
+    local file bytes
+    while read -r file; do
+        [[ -f $file ]] || continue
+        bytes=$(stat -c %s "$file")
+        ((bytes <= 1048576)) || complain "$file has $bytes bytes; the limit is 1 MB"
+        [[ ! $file =~ \.(o|a|so|spv|exe|pyc)$ ]] || complain "$file is a build product"
+        [[ $(head -c 4 "$file" | tr -d '\0') != $'\x7fELF' ]] || complain "$file is a compiled binary"
+    done < <(project_files)
+}
+
+# Paths of one machine have no place in a project.
+check_words() {
+    local file
+    while read -r file; do
+        [[ -f $file ]] || continue
+        if grep -nIE '(^|[^A-Za-z0-9_.])/(work|home|root|Users)/[a-z]' "$file"; then complain "$file names a path of one machine"; fi
+    done < <(project_files | grep -v '^tests/structure/')
+}
+
+if ! declare -F "check_$rule" >/dev/null; then
+    echo "check.sh: there is no rule '$rule'" >&2
+    exit 2
+fi
+"check_$rule"
+exit "$complaints"

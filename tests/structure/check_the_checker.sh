@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Each rule of check.sh must find what it is there to find: breaks it on purpose in a scratch project.
+set -euo pipefail
+
+check=$(realpath "$(dirname "${BASH_SOURCE[0]}")/check.sh")
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+failed=0
+
+# expect_complaint RULE FILE CONTENT: with this file alone in the project, the rule must complain about it.
+expect_complaint() {
+    local project=$scratch/project
+    rm -rf "$project"
+    mkdir -p "$project/include/probegi"
+    echo '#include <vector>' >"$project/include/probegi/good.h"
+    "$check" "$1" "$project" >/dev/null || { echo "rule $1 complains about a sound project" && failed=1; }
+    mkdir -p "$project/$(dirname "$2")"
+    printf '%b' "$3" >"$project/$2"
+    if "$check" "$1" "$project" >/dev/null; then
+        echo "rule $1 did not notice $2: $3"
+        failed=1
+    fi
+}
+
+expect_complaint layers src/scene/a.cpp '#include "cpu/b.h"\n'
+expect_complaint layers src/cpu/a.h '#include "render/b.h"\n'
+expect_complaint layers src/kernels/a.h '#include "probegi/field.h"\n'
+expect_complaint layers src/unheard_of/a.cpp 'int x;\n'
+expect_complaint layers apps/tool/a.cpp '#include "field/b.h"\n'
+expect_complaint public_headers include/probegi/a.h '#include <embree3/rtcore.h>\n'
+expect_complaint public_headers include/probegi/a.h '#include "core/b.h"\n'
+expect_complaint public_headers include/probegi/a.h 'RTCScene scene();\n'
+expect_complaint examples examples/a/main.cpp '#include "core/b.h"\n'
+expect_complaint sizes src/core/a.cpp "$(printf '\\n%.0s' {1..601})"
+expect_complaint assets a.bin "$(head -c 1100000 /dev/zero | tr '\0' y)"
+expect_complaint assets a.bin '\0177ELF'
+expect_complaint words src/core/a.cpp '// see /home/someone/notes\n'
+exit "$failed"
