@@ -12,10 +12,10 @@ enum class LogLevel { info, warning };
 
 /// A snapshot of one long-running stage, for a progress bar.
 struct ProgressReport {
-    std::string_view stage;    ///< what is being done, e.g. "path tracing"
-    double fraction = 0;       ///< share done, 0..1
-    double secondsElapsed = 0; ///< since the stage began
-    double secondsLeft = -1;   ///< estimate; negative while unknown
+    std::string_view stage;     ///< what is being done, e.g. "path tracing"
+    double fraction = 0;        ///< share done, 0..1
+    double secondsElapsed = 0;  ///< since the stage began
+    double secondsLeft = -1;    ///< estimate; negative while unknown
 };
 
 /// How a Context is made. All fields have working defaults.

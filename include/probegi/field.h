@@ -29,18 +29,18 @@ enum class BackfaceRule : std::uint8_t {
 /// How a Field is made. Distances are fractions of probe spacing: nothing here depends on the scene's scale.
 struct FieldDesc {
     GridDesc grid;
-    int raysPerProbe = 144;       ///< update rays a probe and frame, 8..4096
-    int irradianceTexels = 8;     ///< side of the octahedral irradiance map, 4..32, even
-    int visibilityTexels = 16;    ///< side of the octahedral visibility map, 4..64, even
-    float hysteresis = 0.97f;     ///< share of the old irradiance that survives an update (alpha of eq. 1), 0..0.999
+    int raysPerProbe = 144;     ///< update rays a probe and frame, 8..4096
+    int irradianceTexels = 8;   ///< side of the octahedral irradiance map, 4..32, even
+    int visibilityTexels = 16;  ///< side of the octahedral visibility map, 4..64, even
+    float hysteresis = 0.97f;   ///< share of the old irradiance that survives an update (alpha of eq. 1), 0..0.999
     float visibilityHysteresis = 0.97f;  ///< the same for distance moments, 0..0.999
     float visibilityExponent = 50.0f;    ///< power of the cosine that weights distances, 1..500
-    float selfShadowBias = 0.3f;  ///< TunableShadowBias of eq. 2, 0..2
+    float selfShadowBias = 0.3f;         ///< TunableShadowBias of eq. 2, 0..2
     float significantChange = 0.25f;     ///< Listing 3, on encoded irradiance over its maximum; 0 disables
     float newDistribution = 0.8f;        ///< Listing 3, same scale; 0 disables
     BackfaceRule backfaceRule = BackfaceRule::zeroSample;
     LeakGuard guard = LeakGuard::moments;
-    std::uint64_t seed = 1;       ///< of the per-frame ray rotation and the storage dither
+    std::uint64_t seed = 1;  ///< of the per-frame ray rotation and the storage dither
 };
 
 /// What one ray of one probe brought home. This is the seam for engines with a ray tracer of their own.
@@ -141,9 +141,9 @@ private:
 
 /// How the automatic grid is laid.
 struct PlacementDesc {
-    glm::ivec3 counts{0};          ///< probes per axis; 0: from the scene's size
-    int targetProbes = 8192;       ///< about how many where counts is 0, 8..2^24
-    float marginCells = 1.0f;      ///< cells beyond the scene's bounds on every side, >= 0
+    glm::ivec3 counts{0};      ///< probes per axis; 0: from the scene's size
+    int targetProbes = 8192;   ///< about how many where counts is 0, 8..2^24
+    float marginCells = 1.0f;  ///< cells beyond the scene's bounds on every side, >= 0
 };
 
 /// A grid that covers the bounds with the asked-for margin and near-cubic cells.

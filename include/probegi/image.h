@@ -12,8 +12,8 @@ namespace probegi {
 
 /// Linear Rec.709 picture, row-major, top row first.
 struct HdrImage {
-    int width = 0;   ///< pixels
-    int height = 0;  ///< pixels
+    int width = 0;                  ///< pixels
+    int height = 0;                 ///< pixels
     std::vector<glm::vec3> pixels;  ///< width * height values
 
     HdrImage() = default;

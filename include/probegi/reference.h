@@ -9,19 +9,19 @@ namespace probegi {
 
 /// When the reference stops: at the first limit that is reached; at least one must be set.
 struct ReferenceDesc {
-    PictureDesc picture;         ///< camera, size, diffuseOnly (samplesPerAxis is ignored: pixels are sampled uniformly)
-    int samplesPerPixel = 64;    ///< 0: no limit
-    double seconds = 0;          ///< 0: no limit
-    double relativeError = 0;    ///< stop when the mean standard error over the mean luminance is below; 0: no limit
-    int maxBounces = 0;          ///< 0: unlimited (Russian roulette only)
+    PictureDesc picture;       ///< camera, size, diffuseOnly (samplesPerAxis is ignored: pixels are sampled uniformly)
+    int samplesPerPixel = 64;  ///< 0: no limit
+    double seconds = 0;        ///< 0: no limit
+    double relativeError = 0;  ///< stop when the mean standard error over the mean luminance is below; 0: no limit
+    int maxBounces = 0;        ///< 0: unlimited (Russian roulette only)
     std::uint64_t seed = 1;
 };
 
 /// A progressive estimate: the mean, and how sure it is.
 struct ReferencePicture {
-    Picture picture;         ///< layers as in Picture: `direct` and `indirect` split as the field splits them
-    HdrImage standardError;  ///< of color, same units
-    int samplesPerPixel = 0; ///< done
+    Picture picture;          ///< layers as in Picture: `direct` and `indirect` split as the field splits them
+    HdrImage standardError;   ///< of color, same units
+    int samplesPerPixel = 0;  ///< done
     double seconds = 0;
 };
 

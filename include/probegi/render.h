@@ -22,9 +22,9 @@ struct Picture {
 
 struct PictureDesc {
     PlacedCamera camera;
-    int width = 960;    ///< 1..16384
-    int height = 540;   ///< 1..16384
-    int samplesPerAxis = 2;  ///< supersampling of primary rays, 1..8; the layers are box-filtered
+    int width = 960;           ///< 1..16384
+    int height = 540;          ///< 1..16384
+    int samplesPerAxis = 2;    ///< supersampling of primary rays, 1..8; the layers are box-filtered
     bool diffuseOnly = false;  ///< all materials as Lambert of their base colour
 };
 

@@ -31,12 +31,12 @@ enum class Wrap : std::uint8_t { repeat, clampToEdge, mirroredRepeat };
 
 /// A use of a TextureImage by a material slot.
 struct TextureRef {
-    int image = -1;     ///< index into Scene::images; -1: no texture, the factor alone counts
-    int texCoord = 0;   ///< uv set, 0 or 1
+    int image = -1;    ///< index into Scene::images; -1: no texture, the factor alone counts
+    int texCoord = 0;  ///< uv set, 0 or 1
     Wrap wrapU = Wrap::repeat;
     Wrap wrapV = Wrap::repeat;
-    bool nearest = false;               ///< true: no bilinear filtering
-    glm::mat3 uvTransform{1.0f};        ///< KHR_texture_transform as a matrix on (u, v, 1)
+    bool nearest = false;         ///< true: no bilinear filtering
+    glm::mat3 uvTransform{1.0f};  ///< KHR_texture_transform as a matrix on (u, v, 1)
 };
 
 /// BLEND is treated as MASK with cutoff 0.5 by every ray (docs/conventions.md says why).
@@ -45,25 +45,25 @@ enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 /// glTF 2.0 metallic-roughness material. Textures multiply the factors.
 struct Material {
     std::string name;
-    glm::vec4 baseColor{1.0f};   ///< linear RGB + alpha, 0..1
-    float metallic = 0.0f;       ///< 0..1
-    float roughness = 1.0f;      ///< 0..1, perceptual (alpha = roughness^2)
-    glm::vec3 emission{0.0f};    ///< radiance, W sr^-1 m^-2, >= 0 (emissiveFactor x KHR_materials_emissive_strength)
+    glm::vec4 baseColor{1.0f};  ///< linear RGB + alpha, 0..1
+    float metallic = 0.0f;      ///< 0..1
+    float roughness = 1.0f;     ///< 0..1, perceptual (alpha = roughness^2)
+    glm::vec3 emission{0.0f};   ///< radiance, W sr^-1 m^-2, >= 0 (emissiveFactor x KHR_materials_emissive_strength)
     float normalScale = 1.0f;
-    TextureRef baseColorTexture;         ///< sRGB + linear alpha
-    TextureRef metallicRoughnessTexture; ///< linear; B metallic, G roughness
-    TextureRef normalTexture;            ///< linear, tangent space
-    TextureRef emissiveTexture;          ///< sRGB
+    TextureRef baseColorTexture;          ///< sRGB + linear alpha
+    TextureRef metallicRoughnessTexture;  ///< linear; B metallic, G roughness
+    TextureRef normalTexture;             ///< linear, tangent space
+    TextureRef emissiveTexture;           ///< sRGB
     AlphaMode alphaMode = AlphaMode::opaque;
-    float alphaCutoff = 0.5f;    ///< for AlphaMode::mask, 0..1
-    bool doubleSided = false;    ///< false: the back is solid wall to the probes (radiance 0, shortened distance)
+    float alphaCutoff = 0.5f;  ///< for AlphaMode::mask, 0..1
+    bool doubleSided = false;  ///< false: the back is solid wall to the probes (radiance 0, shortened distance)
 };
 
 /// Indexed triangles with one material. Normals, tangents and uvs are empty or as long as positions.
 struct Primitive {
     std::vector<glm::vec3> positions;  ///< metres, mesh space
     std::vector<glm::vec3> normals;    ///< unit; empty: the geometric normal
-    std::vector<glm::vec4> tangents;   ///< xyz unit, w = handedness +-1; empty: derived from uvs where a normal map asks
+    std::vector<glm::vec4> tangents;  ///< xyz unit, w = handedness +-1; empty: derived from uvs where a normal map asks
     std::vector<glm::vec2> uv0;
     std::vector<glm::vec2> uv1;
     std::vector<std::uint32_t> indices;  ///< 3 per triangle, counter-clockwise seen from the front
@@ -116,7 +116,7 @@ struct AnimationChannel {
     int node = -1;
     AnimationPath path = AnimationPath::translation;
     Interpolation interpolation = Interpolation::linear;
-    std::vector<float> times;        ///< seconds, strictly increasing
+    std::vector<float> times;  ///< seconds, strictly increasing
     std::vector<glm::vec4> values;
 };
 
@@ -139,8 +139,8 @@ struct Scene {
     std::vector<Node> nodes;
     std::vector<AnimationChannel> animations;
     Sky sky;
-    std::optional<GridDesc> grid;   ///< a probe grid that came with the scene; empty: placed automatically
-    float exposure = 1.0f;          ///< suggested tone-map exposure for pictures of this scene
+    std::optional<GridDesc> grid;  ///< a probe grid that came with the scene; empty: placed automatically
+    float exposure = 1.0f;         ///< suggested tone-map exposure for pictures of this scene
 
     /// Adds a root node and returns its index.
     int addNode(Node node) {
@@ -159,10 +159,10 @@ struct Instance {
 /// A punctual light in world space.
 struct PlacedLight {
     LightType type = LightType::point;
-    glm::vec3 position{0.0f};         ///< metres; unused for directional
-    glm::vec3 direction{0, -1, 0};    ///< unit, the way the light travels; unused for point
-    glm::vec3 intensity{0.0f};        ///< as Light::intensity
-    float range = 0.0f;               ///< metres, 0: unlimited
+    glm::vec3 position{0.0f};       ///< metres; unused for directional
+    glm::vec3 direction{0, -1, 0};  ///< unit, the way the light travels; unused for point
+    glm::vec3 intensity{0.0f};      ///< as Light::intensity
+    float range = 0.0f;             ///< metres, 0: unlimited
     float cosInner = 1.0f;
     float cosOuter = 0.0f;
 };

@@ -14,18 +14,18 @@ namespace probegi {
 /// A half-line. Hits closer than `near` or farther than `far` do not count.
 struct Ray {
     glm::vec3 origin{0.0f};
-    float near = 0.0f;  ///< metres
+    float near = 0.0f;             ///< metres
     glm::vec3 direction{0, 0, 1};  ///< unit
-    float far = 1e30f;  ///< metres
+    float far = 1e30f;             ///< metres
 };
 
 /// The closest surface along a Ray. `primitive < 0`: nothing was hit.
 struct Hit {
-    float distance = 1e30f;        ///< metres along the ray
-    std::int32_t primitive = -1;   ///< tracer-specific triangle or SDF primitive number
-    std::int32_t geometry = -1;    ///< tracer-specific
-    std::int32_t instance = -1;    ///< tracer-specific
-    glm::vec2 barycentric{0.0f};   ///< weights of the second and third corner
+    float distance = 1e30f;       ///< metres along the ray
+    std::int32_t primitive = -1;  ///< tracer-specific triangle or SDF primitive number
+    std::int32_t geometry = -1;   ///< tracer-specific
+    std::int32_t instance = -1;   ///< tracer-specific
+    glm::vec2 barycentric{0.0f};  ///< weights of the second and third corner
     bool valid() const { return primitive >= 0; }
 };
 
@@ -38,8 +38,8 @@ struct Surface {
     glm::vec3 emission{0.0f};            ///< radiance towards the ray's origin, W sr^-1 m^-2 (0 on a backface)
     float metallic = 0.0f;
     float roughness = 1.0f;
-    std::int32_t material = -1;          ///< index into Scene::materials; -1: the tracer knows no materials
-    bool backface = false;               ///< the back of a single-sided material: solid wall
+    std::int32_t material = -1;  ///< index into Scene::materials; -1: the tracer knows no materials
+    bool backface = false;       ///< the back of a single-sided material: solid wall
 };
 
 /// The first axis of the pipeline: what a ray hits. Implementations are immutable once made and safe to use from

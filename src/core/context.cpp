@@ -11,8 +11,7 @@ namespace probegi {
 
 Result<Context> Context::create(const ContextDesc& desc) {
     if (desc.threads < 0 || desc.threads > 1024)
-        return fail(ErrorCode::invalidArgument,
-                    fmt::format("threads is {}; it must be 0 (all) to 1024", desc.threads));
+        return fail(ErrorCode::invalidArgument, fmt::format("threads is {}; it must be 0 (all) to 1024", desc.threads));
     const int hardware = std::max(1, int(std::thread::hardware_concurrency()));
     return Context(std::make_shared<Impl>(desc, desc.threads > 0 ? desc.threads : hardware));
 }

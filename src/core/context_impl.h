@@ -1,7 +1,7 @@
 #pragma once
 
-#include <mutex>
 #include <tbb/task_arena.h>
+#include <mutex>
 
 #include "probegi/context.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cstddef>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <cstddef>
 
 #include "core/context_impl.h"
 

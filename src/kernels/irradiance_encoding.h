@@ -1,8 +1,8 @@
-// The perceptual encoding of stored irradiance (DDGI paper, section 4.2, Listings 1 and 2): stored = mean^(1/5).
+// The perceptual encoding of stored irradiance (DDGI paper, section 4.2, Listing 1): stored = mean^(1/5).
 #ifndef PROBEGI_KERNELS_IRRADIANCE_ENCODING_H
 #define PROBEGI_KERNELS_IRRADIANCE_ENCODING_H
 
-#include "kernels/lanes.h"
+#include "kernels/irradiance_decoding.h"
 
 KERNELS_BEGIN
 
@@ -16,17 +16,6 @@ KERNEL_FN float encodeIrradiance(float x) {
         y = 0.8f * y + 0.2f * safe / (y2 * y2);
     }
     return select(x < 1e-30f, 0.0f, y);
-}
-
-// Stored value -> linear mean radiance.
-KERNEL_FN Real decodeIrradiance(Real stored) {
-    const Real s2 = stored * stored;
-    return s2 * s2 * stored;
-}
-
-// Stored value -> the exponent-2 curve in which the probes of a cage are interpolated (Listing 2): stored^2.5.
-KERNEL_FN Real decodeToBlendSpace(Real stored) {
-    return stored * stored * sqrt(stored);
 }
 
 KERNELS_END

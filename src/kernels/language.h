@@ -60,8 +60,12 @@ using std::atan;
 using std::cos;
 using std::sin;
 
-inline uint floatBitsToUint(float x) { return std::bit_cast<uint>(x); }
-inline float uintBitsToFloat(uint x) { return std::bit_cast<float>(x); }
+inline uint floatBitsToUint(float x) {
+    return std::bit_cast<uint>(x);
+}
+inline float uintBitsToFloat(uint x) {
+    return std::bit_cast<float>(x);
+}
 
 }  // namespace probegi::kernels
 

@@ -6,7 +6,8 @@
 
 KERNELS_BEGIN
 
-// Weight of a ray for an irradiance texel: the clamped cosine of eq. 1 (normalised by the caller with the sum of weights).
+// Weight of a ray for an irradiance texel: the clamped cosine of eq. 1 (normalised by the caller with the sum of
+// weights).
 KERNEL_FN float irradianceWeight(vec3 texelDirection, vec3 rayDirection) {
     return max(0.0f, dot(texelDirection, rayDirection));
 }
@@ -44,8 +45,7 @@ KERNEL_FN float texelHysteresis(vec3 oldStored, vec3 newStored, BlendRule rule) 
 
 // Listing 1: blends in the encoded space, where a fall to dark is perceptually linear. `newMean` is linear.
 KERNEL_FN vec3 blendEncoded(vec3 oldStored, vec3 newMean, BlendRule rule) {
-    const vec3 newStored =
-        vec3(encodeIrradiance(newMean.x), encodeIrradiance(newMean.y), encodeIrradiance(newMean.z));
+    const vec3 newStored = vec3(encodeIrradiance(newMean.x), encodeIrradiance(newMean.y), encodeIrradiance(newMean.z));
     return mix(newStored, oldStored, texelHysteresis(oldStored, newStored, rule));
 }
 

@@ -19,9 +19,12 @@ KERNEL_FN uint packHalfDithered(float x, uint dither) {
     return h < 0x1c400u ? 0u : h - 0x1c000u;    // 112 << 10 between the exponent biases of float and half
 }
 
+// 2^112, between the exponent biases of half and float.
+KERNEL_CONST float kHalfRebase = 5.192296858534828e33f;
+
 // Half float bits (non-negative, finite) -> float.
 KERNEL_FN float unpackHalf(uint h) {
-    return uintBitsToFloat(h << 13u) * 5.192296858534828e33f;  // 2^112: rebases the exponent
+    return uintBitsToFloat(h << 13u) * kHalfRebase;
 }
 
 // Value in [0, 1] -> 16 bits; `dither` in [0, 1) decides the rounding.

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "field/layout.h"
+
+namespace probegi {
+
+/// What the probes remember, in the default formats: 1,408 bytes a probe at 8x8 and 16x16 texels.
+struct FieldStorage {
+    explicit FieldStorage(const FieldLayout& layout);
+
+    /// Half floats, encoded (mean radiance)^(1/5): [probe][texel][rgb]. One spare value at the end, so that the last
+    /// texel can be read as four halves.
+    std::vector<std::uint16_t> irradiance;
+    /// Mean (low 16 bits) and mean square (high 16 bits) of distance / maxDistance, as unorm: [probe][texel].
+    std::vector<std::uint32_t> visibility;
+};
+
+}  // namespace probegi

@@ -1,0 +1,153 @@
+#include "cpu/probe_blend.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "core/parallel.h"
+#include "cpu/matrix_product.h"
+#include "kernels/octahedral_texel.h"
+#include "kernels/probe_blend.h"
+#include "kernels/storage.h"
+
+namespace probegi {
+
+namespace {
+
+// Probes a task: wide enough for the matrix product, small enough for the second-level cache.
+constexpr std::size_t kBlock = 32;
+
+template <class Weight>
+void fillWeights(const Context& context, int size, std::span<const glm::vec3> directions, std::vector<float>& out,
+                 const Weight& weight) {
+    const std::size_t texels = std::size_t(size) * size;
+    out.resize(directions.size() * texels);
+    parallelFor(context, texels, 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t texel = begin; texel < end; ++texel) {
+            const glm::vec3 n = kernels::octTexelDirection(int(texel) % size, int(texel) / size, size);
+            float sum = 0;
+            for (std::size_t ray = 0; ray < directions.size(); ++ray)
+                sum += out[ray * texels + texel] = weight(n, directions[ray]);
+            // A texel that no ray comes near (few rays, high exponent) keeps weight 0 throughout; see storeVisibility.
+            const float scale = sum > 1e-20f ? 1.0f / sum : 0.0f;
+            for (std::size_t ray = 0; ray < directions.size(); ++ray) out[ray * texels + texel] *= scale;
+        }
+    });
+}
+
+// Ray data of one block as the rows of the two products' left sides, made safe.
+struct BlockInput {
+    Matrix radiance;  // 3 rows a probe: r, g, b
+    Matrix distance;  // 2 rows a probe: distance, distance squared, as fractions of the farthest
+    Matrix valid;     // 1 row a probe: 0 where a ray hit a backface (BackfaceRule::excluded only)
+    bool weighted = false;
+};
+
+// Not a number, infinite or negative radiance never enters an atlas.
+float safeRadiance(float x) {
+    return x > 0.0f && x < 1e30f ? x : 0.0f;
+}
+
+void gather(const FieldDesc& desc, const FieldLayout& layout, std::span<const RayDatum> data, std::size_t probes,
+            BlockInput& in) {
+    const std::size_t rays = layout.rays, rows = probes;
+    in.radiance.resize(3 * rows, rays);
+    in.distance.resize(2 * rows, rays);
+    in.weighted = desc.backfaceRule == BackfaceRule::excluded;
+    if (in.weighted) in.valid.resize(rows, rays);
+    for (std::size_t p = 0; p < rows; ++p) {
+        const RayDatum* row = data.data() + p * rays;
+        for (std::size_t r = 0; r < rays; ++r) {
+            const RayDatum& d = row[r];
+            const bool backface = d.distance < 0.0f;
+            for (int c = 0; c < 3; ++c) in.radiance(3 * p + c, r) = backface ? 0.0f : safeRadiance(d.radiance[c]);
+            const float finite = std::isnan(d.distance) ? layout.maxDistance : d.distance;
+            const float fraction = kernels::visibilityDistance(finite, layout.maxDistance);
+            in.distance(2 * p, r) = fraction;
+            in.distance(2 * p + 1, r) = fraction * fraction;
+            if (in.weighted) in.valid(p, r) = backface ? 0.0f : 1.0f;
+        }
+    }
+}
+
+// BackfaceRule::excluded: the weights of the rays that count, instead of all weights, sum to 1.
+void divideByValidity(const Matrix& validity, Matrix& irradiance) {
+    for (std::size_t row = 0; row < irradiance.rows; ++row)
+        for (std::size_t texel = 0; texel < irradiance.columns; ++texel)
+            irradiance(row, texel) /= std::max(validity(row / 3, texel), 1e-6f);
+}
+
+// One probe's new irradiance (rows r, g, b over the texels) joins the stored one.
+void storeIrradiance(const FieldDesc& desc, const BlendFrame& frame, const Matrix& mean, std::size_t row,
+                     std::size_t probe, std::size_t texels, std::uint16_t* map) {
+    const kernels::BlendRule rule{frame.hysteresis.irradiance, desc.significantChange, desc.newDistribution};
+    const float* r = &mean(row, 0);
+    const float* g = &mean(row + 1, 0);
+    const float* b = &mean(row + 2, 0);
+    for (std::size_t t = 0; t < texels; ++t) {
+        std::uint16_t* stored = map + 3 * t;
+        const glm::vec3 newMean(r[t], g[t], b[t]);
+        const glm::vec3 old(kernels::unpackHalf(stored[0]), kernels::unpackHalf(stored[1]),
+                            kernels::unpackHalf(stored[2]));
+        const glm::vec3 value = frame.linear ? kernels::blendLinear(old, newMean, rule.hysteresis)
+                                             : kernels::blendEncoded(old, newMean, rule);
+        // One dither for the three channels: it keeps greys grey.
+        const std::uint32_t dither = kernels::storageDither(frame.ditherSeed, std::uint32_t(probe * texels + t)) >> 19;
+        for (int c = 0; c < 3; ++c) stored[c] = std::uint16_t(kernels::packHalfDithered(value[c], dither));
+    }
+}
+
+void storeVisibility(const BlendFrame& frame, const Matrix& mean, std::size_t row, std::size_t probe,
+                     std::size_t texels, std::uint32_t* map) {
+    const float h = frame.hysteresis.visibility;
+    const float* d = &mean(row, 0);
+    const float* dd = &mean(row + 1, 0);
+    for (std::size_t t = 0; t < texels; ++t) {
+        const std::uint32_t random =
+            kernels::storageDither(frame.ditherSeed ^ 0x5bd1e995u, std::uint32_t(probe * texels + t));
+        const float oldMean = kernels::unpackUnorm16(map[t] & 0xffffu);
+        const float oldSquare = kernels::unpackUnorm16(map[t] >> 16u);
+        const float newMean = glm::mix(d[t], oldMean, h);
+        const float newSquare = glm::mix(dd[t], oldSquare, h);
+        const float u = kernels::uintToUnit(random);
+        map[t] = kernels::packUnorm16Dithered(newMean, u) | kernels::packUnorm16Dithered(newSquare, u) << 16u;
+    }
+}
+
+}  // namespace
+
+FieldStorage::FieldStorage(const FieldLayout& layout)
+    : irradiance(layout.probes * layout.irradianceTexels * 3 + 1),
+      visibility(layout.probes * layout.visibilityTexels) {}
+
+void makeBlendWeights(const Context& context, const FieldDesc& desc, const FieldLayout&,
+                      std::span<const glm::vec3> directions, BlendWeights& weights) {
+    fillWeights(context, desc.irradianceTexels, directions, weights.irradiance,
+                [](glm::vec3 n, glm::vec3 w) { return kernels::irradianceWeight(n, w); });
+    fillWeights(context, desc.visibilityTexels, directions, weights.visibility,
+                [&](glm::vec3 n, glm::vec3 w) { return kernels::visibilityWeight(n, w, desc.visibilityExponent); });
+}
+
+void blendProbes(const Context& context, const FieldDesc& desc, const FieldLayout& layout, const BlendWeights& weights,
+                 std::span<const RayDatum> rayData, const BlendFrame& frame, FieldStorage& storage) {
+    parallelFor(context, layout.probes, kBlock, [&](std::size_t begin, std::size_t end) {
+        thread_local BlockInput in;
+        thread_local Matrix irradiance, visibility, validity;
+        gather(desc, layout, rayData.subspan(begin * layout.rays, (end - begin) * layout.rays), end - begin, in);
+        multiply(in.radiance, weights.irradiance, irradiance);
+        multiply(in.distance, weights.visibility, visibility);
+        if (in.weighted) {
+            multiply(in.valid, weights.irradiance, validity);
+            divideByValidity(validity, irradiance);
+        }
+        for (std::size_t probe = begin; probe < end; ++probe) {
+            const std::size_t row = probe - begin;
+            storeIrradiance(desc, frame, irradiance, 3 * row, probe, layout.irradianceTexels,
+                            storage.irradiance.data() + 3 * probe * layout.irradianceTexels);
+            storeVisibility(frame, visibility, 2 * row, probe, layout.visibilityTexels,
+                            storage.visibility.data() + probe * layout.visibilityTexels);
+        }
+    });
+}
+
+}  // namespace probegi

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cpu/field_storage.h"
+#include "field/hysteresis.h"
+
+namespace probegi {
+
+/// Weights of every ray of a frame for every texel of a probe: since all probes share the frame's rotated rays, the
+/// blend of all probes is a product with these two matrices. Both are [ray][texel], and normalised over the rays.
+struct BlendWeights {
+    std::vector<float> irradiance;
+    std::vector<float> visibility;
+};
+
+/// Fills the weights for a frame's directions (eq. 1, and its power-cosine form for distances).
+void makeBlendWeights(const Context& context, const FieldDesc& desc, const FieldLayout& layout,
+                      std::span<const glm::vec3> directions, BlendWeights& weights);
+
+/// How the new values join the old ones.
+struct BlendFrame {
+    FrameHysteresis hysteresis;
+    bool linear = false;           ///< blendLinear instead of blendEncoded: for averages
+    std::uint32_t ditherSeed = 0;  ///< differs between frames
+};
+
+/// Blends the ray data of all probes into the storage: weights x data, then encoding, hysteresis and storage.
+/// rayData is [probe][ray]. Values that are not finite count as 0 radiance and as the farthest distance.
+void blendProbes(const Context& context, const FieldDesc& desc, const FieldLayout& layout, const BlendWeights& weights,
+                 std::span<const RayDatum> rayData, const BlendFrame& frame, FieldStorage& storage);
+
+}  // namespace probegi

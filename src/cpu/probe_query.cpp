@@ -1,0 +1,148 @@
+#include "cpu/probe_query.h"
+
+#include <algorithm>
+#include <bit>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "cpu/leak_guards.h"
+#include "kernels/irradiance_decoding.h"
+#include "kernels/octahedral_texel.h"
+#include "kernels/storage.h"
+
+namespace probegi {
+
+namespace {
+
+namespace wide = kernels::wide;
+using wide::Real;
+using wide::stdx::element_aligned;
+
+// One texel's three channels (and whatever follows) abreast.
+using Texel = wide::stdx::fixed_size_simd<float, 4>;
+
+Texel loadTexel(const std::uint16_t* halves) {
+    // kernels::unpackHalf, four abreast; stdx has no half type and no bit_cast.
+    using TexelBits = wide::stdx::fixed_size_simd<std::uint32_t, 4>;
+    std::array<std::uint32_t, 4> bits;
+    (TexelBits([&](auto i) { return std::uint32_t(halves[i]); }) << 13).copy_to(bits.data(), element_aligned);
+    return Texel(std::bit_cast<std::array<float, 4>>(bits).data(), element_aligned) * kernels::kHalfRebase;
+}
+
+// A bilinear footprint of one map that all probes share: four texel offsets and their weights.
+struct Footprint {
+    std::array<std::uint32_t, 4> offset;
+    std::array<float, 4> weight;
+};
+
+Footprint footprintOf(const TapTable& table, int size, glm::vec3 direction) {
+    const glm::vec2 texel = kernels::octTexelPosition(kernels::octEncode(direction), size);
+    const glm::vec2 corner = glm::clamp(glm::floor(texel), glm::vec2(-1.0f), glm::vec2(float(size - 1)));
+    const glm::vec2 f = texel - corner;
+    const auto& taps = table[std::size_t((int(corner.y) + 1) * (size + 1) + int(corner.x) + 1)];
+    return {{taps[0], taps[1], taps[2], taps[3]}, {(1 - f.x) * (1 - f.y), f.x * (1 - f.y), (1 - f.x) * f.y, f.x * f.y}};
+}
+
+Texel storedIrradiance(const std::uint16_t* map, const Footprint& f) {
+    return f.weight[0] * loadTexel(map + 3 * f.offset[0]) + f.weight[1] * loadTexel(map + 3 * f.offset[1]) +
+           f.weight[2] * loadTexel(map + 3 * f.offset[2]) + f.weight[3] * loadTexel(map + 3 * f.offset[3]);
+}
+
+const Real kCornerX([](int lane) { return float(lane & 1); });
+const Real kCornerY([](int lane) { return float(lane >> 1 & 1); });
+const Real kCornerZ([](int lane) { return float(lane >> 2 & 1); });
+
+// Steps 1 to 3 of section 2.2 for the eight probes around a point, then their weighted sum.
+template <class Guard>
+glm::vec3 queryOne(const FieldView& view, const FieldQuery& query, const Guard& guard) {
+    const GridDesc& grid = view.desc->grid;
+    const glm::vec3 local = (query.position - grid.origin) * view.inverseSpacing;
+    const glm::vec3 base = glm::clamp(glm::floor(local), glm::vec3(0.0f), glm::vec3(grid.counts - 2));
+    const glm::vec3 alpha = glm::clamp(local - base, 0.0f, 1.0f);
+    const glm::vec3 fromBase = query.position - (grid.origin + base * grid.spacing);
+    const glm::vec3 bias =
+        kernels::selfShadowBias(query.normal, query.toViewer, view.minSpacing, view.desc->selfShadowBias);
+
+    // From the point to each probe.
+    const Real dx = kCornerX * grid.spacing.x - fromBase.x;
+    const Real dy = kCornerY * grid.spacing.y - fromBase.y;
+    const Real dz = kCornerZ * grid.spacing.z - fromBase.z;
+    const Real length = wide::sqrt(dx * dx + dy * dy + dz * dz) + 1e-20f;
+    const Real cosToProbe = (dx * query.normal.x + dy * query.normal.y + dz * query.normal.z) / length;
+
+    const std::int32_t strideY = grid.counts.x, strideZ = grid.counts.x * grid.counts.y;
+    const std::int32_t first = std::int32_t(base.x) + strideY * std::int32_t(base.y) + strideZ * std::int32_t(base.z);
+    const CageQuery cage{{first, first + 1, first + strideY, first + strideY + 1, first + strideZ, first + strideZ + 1,
+                          first + strideZ + strideY, first + strideZ + strideY + 1},
+                         {bias.x - dx, bias.y - dy, bias.z - dz}};
+
+    const Real trilinear = wide::trilinearFactor(kCornerX, alpha.x) * wide::trilinearFactor(kCornerY, alpha.y) *
+                           wide::trilinearFactor(kCornerZ, alpha.z);
+    const Real weight = wide::crushWeight(wide::backfaceWeight(cosToProbe) * guard(view, cage)) * trilinear;
+
+    const int size = view.desc->irradianceTexels;
+    const Footprint footprint = footprintOf(*view.irradianceTaps, size, query.normal);
+    Texel sum = 0.0f;
+    for (int lane = 0; lane < wide::kLanes; ++lane) {
+        const std::size_t texels = std::size_t(cage.probes[std::size_t(lane)]) * std::size_t(size * size);
+        const Texel stored = storedIrradiance(view.irradiance + 3 * texels, footprint);
+        sum += float(weight[lane]) * (stored * stored * wide::stdx::sqrt(stored));
+    }
+    sum /= wide::stdx::reduce(weight);
+    return glm::vec3(sum[0] * sum[0], sum[1] * sum[1], sum[2] * sum[2]) * kernels::kPi;
+}
+
+template <class Guard>
+void queryAll(const FieldView& view, std::span<const FieldQuery> queries, std::span<glm::vec3> out) {
+    const Guard guard;
+    for (std::size_t i = 0; i < queries.size(); ++i) out[i] = queryOne(view, queries[i], guard);
+}
+
+}  // namespace
+
+TapTable makeTapTable(int size) {
+    TapTable table;
+    table.reserve(std::size_t(size + 1) * (size + 1));
+    const auto index = [size](int x, int y) {
+        const glm::ivec2 t = kernels::octWrapTexel(x, y, size);
+        return std::uint16_t(t.y * size + t.x);
+    };
+    for (int y = -1; y < size; ++y)
+        for (int x = -1; x < size; ++x)
+            table.push_back({index(x, y), index(x + 1, y), index(x, y + 1), index(x + 1, y + 1)});
+    return table;
+}
+
+void queryIrradiance(const FieldView& view, std::span<const FieldQuery> queries, std::span<glm::vec3> out) {
+    switch (view.desc->guard) {
+        case LeakGuard::none:
+            return queryAll<NoGuard>(view, queries, out);
+        case LeakGuard::moments:
+            return queryAll<MomentsGuard>(view, queries, out);
+    }
+}
+
+glm::vec3 probeIrradiance(const FieldView& view, int probe, glm::vec3 normal) {
+    const int size = view.desc->irradianceTexels;
+    const Footprint footprint = footprintOf(*view.irradianceTaps, size, normal);
+    const std::size_t texels = std::size_t(probe) * std::size_t(size * size);
+    const Texel s = storedIrradiance(view.irradiance + 3 * texels, footprint);
+    return glm::vec3(kernels::decodeIrradiance(s[0]), kernels::decodeIrradiance(s[1]),
+                     kernels::decodeIrradiance(s[2])) *
+           kernels::kPi;
+}
+
+glm::vec2 probeMoments(const FieldView& view, int probe, glm::vec3 direction) {
+    const int size = view.desc->visibilityTexels;
+    const Footprint f = footprintOf(*view.visibilityTaps, size, direction);
+    const std::uint32_t* map = view.visibility + std::size_t(probe) * std::size_t(size * size);
+    glm::vec2 moments(0.0f);
+    for (int tap = 0; tap < 4; ++tap) {
+        const std::uint32_t packed = map[f.offset[tap]];
+        moments +=
+            f.weight[tap] * glm::vec2(kernels::unpackUnorm16(packed & 0xffffu), kernels::unpackUnorm16(packed >> 16u));
+    }
+    return moments;
+}
+
+}  // namespace probegi

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cpu/field_storage.h"
+
+namespace probegi {
+
+/// The four texels of a bilinear footprint in an octahedral map, border resolved.
+using TapTable = std::vector<std::array<std::uint16_t, 4>>;
+
+/// Footprints whose top left texel is (x, y), -1 <= x, y < size, at index (y + 1) * (size + 1) + (x + 1).
+TapTable makeTapTable(int size);
+
+/// What a query reads: a view of a field on which nothing is checked.
+struct FieldView {
+    const FieldDesc* desc = nullptr;
+    const std::uint16_t* irradiance = nullptr;
+    const std::uint32_t* visibility = nullptr;
+    const TapTable* irradianceTaps = nullptr;
+    const TapTable* visibilityTaps = nullptr;
+    glm::vec3 inverseSpacing{1.0f};
+    float minSpacing = 1.0f;
+    float inverseMaxDistance = 1.0f;
+};
+
+/// E in W m^-2 at each query (section 2.2), on the calling thread.
+void queryIrradiance(const FieldView& view, std::span<const FieldQuery> queries, std::span<glm::vec3> out);
+
+/// E that one probe stores for a normal, bilinear in its map.
+glm::vec3 probeIrradiance(const FieldView& view, int probe, glm::vec3 normal);
+
+/// Mean and mean square of distance / maxDistance that one probe stores in a direction.
+glm::vec2 probeMoments(const FieldView& view, int probe, glm::vec3 direction);
+
+}  // namespace probegi

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "probegi/field.h"
+
+namespace probegi {
+
+/// Shares of the old values that survive the coming update.
+struct FrameHysteresis {
+    float irradiance = 0;
+    float visibility = 0;
+};
+
+/// Which hysteresis the coming update uses: the described one, lowered for a few frames after announced changes
+/// (section 4.3: "reduce irradiance hysteresis by 15% for four frames", and so on), 0 for the first update.
+class HysteresisSchedule {
+public:
+    void notify(FieldEvent event) noexcept;
+    /// The coming frame's values. Does not advance.
+    FrameHysteresis current(const FieldDesc& desc, bool firstFrame) const noexcept;
+    /// Ends the frame.
+    void advance() noexcept;
+
+private:
+    struct Reduction {
+        float factor;  ///< on the hysteresis
+        int framesLeft;
+    };
+    Reduction m_smallLight{0.85f, 0};
+    Reduction m_large{0.5f, 0};
+    Reduction m_visibility{0.5f, 0};
+};
+
+}  // namespace probegi

@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "probegi/field.h"
+
+namespace probegi {
+
+namespace {
+
+// Cells per axis for cubic cells of side s that cover `size` with the margin, at least one.
+glm::ivec3 countsFor(glm::vec3 size, float s, float marginCells) {
+    const glm::vec3 cells = glm::ceil(size / s) + 2.0f * marginCells;
+    return glm::clamp(glm::ivec3(glm::ceil(cells)) + 1, glm::ivec3(2), glm::ivec3(1024));
+}
+
+double total(glm::ivec3 counts) {
+    return double(counts.x) * counts.y * counts.z;
+}
+
+// The smallest cubic cell whose grid has at most `target` probes, by bisection over the monotone count.
+float cubicSpacing(glm::vec3 size, int target, float marginCells) {
+    float high = std::max({size.x, size.y, size.z});
+    float low = high * 1e-4f;
+    for (int i = 0; i < 48; ++i) {
+        const float middle = std::sqrt(low * high);
+        (total(countsFor(size, middle, marginCells)) > target ? low : high) = middle;
+    }
+    return high;
+}
+
+}  // namespace
+
+Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc) {
+    const glm::vec3 size = bounds.size();
+    const float largest = std::max({size.x, size.y, size.z});
+    if (!std::isfinite(largest) || !(largest > 0))
+        return fail(ErrorCode::invalidArgument, "the scene has no extent to place probes in; give a volume");
+    if (!(desc.marginCells >= 0) || desc.marginCells > 100)
+        return fail(ErrorCode::invalidArgument,
+                    fmt::format("marginCells is {}; it must be 0 to 100", desc.marginCells));
+
+    // A flat axis still gets a cell, and a little room so that the scene never lies on the grid's very face.
+    const glm::vec3 padded = glm::max(size, glm::vec3(largest * 1e-3f));
+    GridDesc grid;
+    if (desc.counts == glm::ivec3(0)) {
+        if (desc.targetProbes < 8 || desc.targetProbes > 1 << 24)
+            return fail(ErrorCode::invalidArgument,
+                        fmt::format("targetProbes is {}; it must be 8 to {}", desc.targetProbes, 1 << 24));
+        const float spacing = cubicSpacing(padded, desc.targetProbes, desc.marginCells);
+        grid.counts = countsFor(padded, spacing, desc.marginCells);
+        grid.spacing = glm::vec3(spacing);
+    } else {
+        for (int axis = 0; axis < 3; ++axis) {
+            if (desc.counts[axis] < 2 || desc.counts[axis] > 1024)
+                return fail(ErrorCode::invalidArgument,
+                            fmt::format("counts has {}; each axis must have 2 to 1024 probes", desc.counts[axis]));
+            const float inner = float(desc.counts[axis] - 1) - 2.0f * desc.marginCells;
+            // Too few probes for a margin on both sides: the scene then fills the middle half of the grid.
+            grid.spacing[axis] = padded[axis] / std::max(inner, 0.5f * float(desc.counts[axis] - 1));
+        }
+        grid.counts = desc.counts;
+    }
+    grid.origin = bounds.centre() - 0.5f * grid.spacing * glm::vec3(grid.counts - 1);
+    return grid;
+}
+
+}  // namespace probegi

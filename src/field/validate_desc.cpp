@@ -1,0 +1,47 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "field/layout.h"
+
+namespace probegi {
+
+namespace {
+
+Result<void> checkRange(const char* name, double value, double lowest, double highest) {
+    if (value >= lowest && value <= highest) return {};
+    return fail(ErrorCode::invalidArgument, fmt::format("{} is {}; it must be {} to {}", name, value, lowest, highest));
+}
+
+Result<void> checkMapSize(const char* name, int size, int highest) {
+    if (size % 2 == 0) return checkRange(name, size, 4, highest);
+    return fail(ErrorCode::invalidArgument, fmt::format("{} is {}; it must be even", name, size));
+}
+
+Result<void> checkGrid(const GridDesc& grid) {
+    std::int64_t probes = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!std::isfinite(grid.origin[axis])) return fail(ErrorCode::invalidArgument, "grid.origin is not finite");
+        if (auto ok = checkRange("grid.spacing", grid.spacing[axis], 1e-6, 1e9); !ok) return ok;
+        if (auto ok = checkRange("grid.counts", grid.counts[axis], 2, 1024); !ok) return ok;
+        probes *= grid.counts[axis];
+    }
+    return checkRange("the number of probes in the grid", double(probes), 8, 1 << 24);
+}
+
+}  // namespace
+
+Result<void> validateFieldDesc(const FieldDesc& d) {
+    return checkGrid(d.grid)
+        .and_then([&] { return checkRange("raysPerProbe", d.raysPerProbe, 8, 4096); })
+        .and_then([&] { return checkMapSize("irradianceTexels", d.irradianceTexels, 32); })
+        .and_then([&] { return checkMapSize("visibilityTexels", d.visibilityTexels, 64); })
+        .and_then([&] { return checkRange("hysteresis", d.hysteresis, 0, 0.999f); })
+        .and_then([&] { return checkRange("visibilityHysteresis", d.visibilityHysteresis, 0, 0.999f); })
+        .and_then([&] { return checkRange("visibilityExponent", d.visibilityExponent, 1, 500); })
+        .and_then([&] { return checkRange("selfShadowBias", d.selfShadowBias, 0, 2); })
+        .and_then([&] { return checkRange("significantChange", d.significantChange, 0, 1); })
+        .and_then([&] { return checkRange("newDistribution", d.newDistribution, 0, 1); });
+}
+
+}  // namespace probegi
