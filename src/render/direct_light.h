@@ -1,0 +1,11 @@
+#pragma once
+
+#include "render/tile_samples.h"
+
+namespace probegi {
+
+/// Fills `direct`: the surface's own emission, and what it reflects of each punctual light that it can see.
+void shadeDirect(const Tracer& tracer, const Lighting& lighting, float sceneMagnitude, bool diffuseOnly,
+                 TileSamples& samples);
+
+}  // namespace probegi

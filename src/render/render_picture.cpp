@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <chrono>
+#include <new>
+
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "render/tile_renderer.h"
+
+namespace probegi {
+
+namespace {
+
+constexpr int kMaxSide = 16384;
+constexpr int kTileWidth = 64;
+constexpr int kTileSamples = 2048;  // what stays in a core's second-level cache
+
+Result<void> checkDesc(const PictureDesc& desc) {
+    if (desc.width < 1 || desc.width > kMaxSide || desc.height < 1 || desc.height > kMaxSide)
+        return fail(ErrorCode::invalidArgument, fmt::format("a picture of {}x{} pixels is not possible; each side must "
+                                                            "be 1 to {}",
+                                                            desc.width, desc.height, kMaxSide));
+    if (desc.samplesPerAxis < 1 || desc.samplesPerAxis > 8)
+        return fail(ErrorCode::invalidArgument,
+                    fmt::format("samplesPerAxis is {}; it must be 1 to 8", desc.samplesPerAxis));
+    return {};
+}
+
+std::vector<Tile> makeTiles(const PictureDesc& desc) {
+    const int perPixel = desc.samplesPerAxis * desc.samplesPerAxis;
+    const int tileHeight = std::max(1, kTileSamples / (kTileWidth * perPixel));
+    std::vector<Tile> tiles;
+    for (int y = 0; y < desc.height; y += tileHeight)
+        for (int x = 0; x < desc.width; x += kTileWidth)
+            tiles.push_back({x, y, std::min(kTileWidth, desc.width - x), std::min(tileHeight, desc.height - y)});
+    return tiles;
+}
+
+Picture makePicture(int width, int height) {
+    const HdrImage empty(width, height);
+    return {empty, empty, empty, empty, empty, empty, empty};
+}
+
+Result<RenderedPicture> renderTiles(const Context& context, const Tracer& tracer, const Lighting& lighting,
+                                    const Field* field, const PictureDesc& desc) {
+    const auto start = std::chrono::steady_clock::now();
+    RenderedPicture rendered{makePicture(desc.width, desc.height), {}};
+    const std::vector<Tile> tiles = makeTiles(desc);
+    TileRenderer renderer(tracer, lighting, field, desc);
+    Progress progress(context, "rendering", double(tiles.size()));
+    tbb::enumerable_thread_specific<TileSamples> scratch;
+    parallelFor(context, tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
+        // A query of the field runs on all threads. Without the fence a thread that waits for its share would begin
+        // another tile and overwrite the samples of the one that it is in.
+        tbb::this_task_arena::isolate([&] {
+            for (std::size_t tile = begin; tile < end && !progress.cancelled(); ++tile) {
+                renderer.render(tiles[tile], scratch.local(), rendered.picture);
+                progress.advance();
+            }
+        });
+    });
+    if (progress.cancelled()) return fail(ErrorCode::cancelled, "rendering was cancelled");
+    rendered.times = renderer.threadTimes();
+    for (double* stage : {&rendered.times.primary, &rendered.times.direct, &rendered.times.query})
+        *stage /= context.threads();
+    rendered.times.total = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return rendered;
+}
+
+}  // namespace
+
+Result<RenderedPicture> renderPicture(const Context& context, const Tracer& tracer, const Lighting& lighting,
+                                      const Field* field, const PictureDesc& desc) {
+    if (const auto checked = checkDesc(desc); !checked) return tl::unexpected(checked.error());
+    try {
+        return renderTiles(context, tracer, lighting, field, desc);
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::outOfMemory, fmt::format("a picture of {}x{} pixels does not fit into memory; choose a "
+                                                        "smaller size",
+                                                        desc.width, desc.height));
+    }
+}
+
+}  // namespace probegi

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "probegi/render.h"
+#include "render/pinhole.h"
+#include "render/tile_samples.h"
+
+namespace probegi {
+
+/// Renders any tile of one picture. Safe to use from many threads at once, each with its own TileSamples and on tiles
+/// of its own.
+class TileRenderer {
+public:
+    TileRenderer(const Tracer& tracer, const Lighting& lighting, const Field* field, const PictureDesc& desc);
+
+    void render(const Tile& tile, TileSamples& samples, Picture& picture);
+
+    /// Time of each stage, summed over threads.
+    PictureTimes threadTimes() const;
+
+private:
+    void castPrimary(const Tile& tile, TileSamples& samples) const;
+    void queryField(TileSamples& samples) const;
+    void resolve(const Tile& tile, const TileSamples& samples, Picture& picture) const;
+
+    const Tracer& m_tracer;
+    const Lighting& m_lighting;
+    const Field* m_field;
+    PictureDesc m_desc;
+    Pinhole m_camera;
+    float m_sceneMagnitude;
+    std::atomic<std::int64_t> m_primaryNs{0}, m_directNs{0}, m_queryNs{0};
+};
+
+}  // namespace probegi
