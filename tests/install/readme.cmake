@@ -1,0 +1,12 @@
+# The code that the README shows is the code of examples/first_light, which is compiled and run.
+file(READ ${EXAMPLE} example)
+string(REGEX MATCH "// \\[readme\\]\n(.*)    // \\[/readme\\]" found "${example}")
+string(REGEX REPLACE "(^|\n)    " "\\1" snippet "${CMAKE_MATCH_1}")
+if(snippet STREQUAL "")
+    message(FATAL_ERROR "${EXAMPLE} has no part between [readme] and [/readme]")
+endif()
+file(READ ${README} readme)
+string(FIND "${readme}" "${snippet}" position)
+if(position EQUAL -1)
+    message(FATAL_ERROR "README.md should show this part of ${EXAMPLE}:\n${snippet}")
+endif()

@@ -1,0 +1,25 @@
+# cmake -DBUILD=... -DEXAMPLES=... -DWORK=... -DCOMPILER=... -DLAUNCHER=... -DSANITIZE=... -DVERSION=... -P run.cmake
+function(run)
+    execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    message(STATUS "${output}")
+    if(NOT code EQUAL 0)
+        message(FATAL_ERROR "failed with ${code}: ${ARGN}")
+    endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
+run(${WORK}/prefix/bin/probegi --help)
+
+set(flags "-Wall -Wextra -Werror")
+if(SANITIZE)
+    string(APPEND flags " -fsanitize=${SANITIZE}")
+endif()
+# The sources are copied, so that nothing of this tree is in reach.
+file(COPY ${EXAMPLES}/ DESTINATION ${WORK}/source)
+run(${CMAKE_COMMAND} -S ${WORK}/source -B ${WORK}/build -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
+    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DCMAKE_CXX_FLAGS=${flags})
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+foreach(example first_light own_tracer engine_loop)
+    run(${CMAKE_COMMAND} -E chdir ${WORK}/build ${WORK}/build/${example})
+endforeach()
