@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "probegi/reference.h"
+#include "reference/running_stats.h"
+#include "reference/transport.h"
+
+namespace probegi {
+
+/// Averages paths into a picture. Different pixels may be added to by different threads at once.
+class Film {
+public:
+    Film(int width, int height);
+
+    std::size_t pixelCount() const noexcept { return m_pixels.size(); }
+    void add(std::size_t pixel, const PathResult& path) noexcept;
+    /// Mean standard error of the luminance over the mean luminance; infinite before the second sample.
+    double relativeError() const noexcept;
+    /// Paths that were not finite; they count as black. More than a handful would be a defect.
+    std::int64_t rejectedCount() const noexcept;
+    /// Moves nothing out: the film can go on. Seconds and samplesPerPixel are left to the caller.
+    ReferencePicture develop() const;
+
+private:
+    struct Pixel {
+        RunningStats color;
+        PathResult mean;  ///< all layers
+        std::int32_t rejected = 0;
+    };
+
+    int m_width;
+    int m_height;
+    std::vector<Pixel> m_pixels;
+};
+
+}  // namespace probegi

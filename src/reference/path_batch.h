@@ -1,0 +1,110 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernels/bsdf.h"
+#include "kernels/punctual_light.h"
+#include "probegi/field.h"
+#include "reference/transport.h"
+
+namespace probegi {
+
+/// Traces many independent paths abreast, one bounce of all of them at a time: the tracer's virtual calls see long
+/// batches. One thread uses a PathBatch; results depend only on the paths' random streams.
+///
+/// Unbiased but for two ends: a throughput beyond the first three reflections faces Russian roulette with at most
+/// kMaxSurvival, so that closed rooms of albedo 1 end as well; and kMaxReflections stops what the roulette missed,
+/// which a path survives to with a probability below 0.99^4093 = 1e-17: in no picture ever.
+class PathBatch {
+public:
+    static constexpr int kRouletteStart = 3;
+    static constexpr float kMaxSurvival = 0.99f;
+    static constexpr int kMaxReflections = 4096;
+    /// Up to so many punctual lights get a shadow ray each; of more, one is chosen by what it would contribute.
+    static constexpr std::size_t kFewLights = 8;
+
+    PathBatch(const Transport& transport, const PathSettings& settings);
+
+    /// One path along each camera ray; its stream of random numbers has the ray's index. The spans are equally long.
+    void fromCamera(std::span<const Ray> cameraRays, std::span<const Random> random, std::span<PathResult> results);
+    /// One path from each point, into PathResult::irradiance: light of surfaces and sky, without punctual lights on the
+    /// point itself.
+    void fromPoints(std::span<const FieldQuery> points, std::span<const Random> random, std::span<PathResult> results);
+
+private:
+    struct Path {
+        Random random;
+        glm::vec3 throughput{1.0f};    ///< since the first vertex
+        glm::vec3 firstColor{0.0f};    ///< BSDF x cosine / density at the first vertex
+        float firstIrradiance = 0.0f;  ///< cosine / density at the first vertex
+        float pdf = 0.0f;              ///< density with which the current ray's direction was sampled
+        glm::vec3 normal{0.0f};        ///< shading normal where the current ray began
+        std::uint32_t result = 0;
+        int reflections = 0;
+    };
+
+    /// Where a path meets a surface.
+    struct Vertex {
+        glm::vec3 position;
+        glm::vec3 geometricNormal;
+        glm::mat3 frame;       ///< of the shading normal
+        glm::vec3 toPrevious;  ///< in the frame
+        kernels::Bsdf bsdf;
+    };
+
+    enum class Layer : std::uint8_t { direct, indirect };
+
+    /// Light that arrives if a ray gets through.
+    struct Pending {
+        std::uint32_t result = 0;
+        Layer layer = Layer::indirect;
+        int material = -1;  ///< of the emitter that must be hit at `distance` (looked-up emitters only)
+        float distance = 0.0f;
+        glm::vec3 color{0.0f};  ///< radiance towards the camera; per unit emission for looked-up emitters
+        glm::vec3 irradiance{0.0f};
+    };
+
+    /// What unit radiance from a direction adds to the layers of a path.
+    struct Response {
+        glm::vec3 color{0.0f};
+        glm::vec3 irradiance{0.0f};
+    };
+
+    void begin(std::size_t count);
+    void run();
+    bool shadeHit(std::size_t i);
+    void addSky(const Path& path, const Ray& ray);
+    void addEmission(const Path& path, const Ray& ray, const Hit& hit, const Surface& surface);
+    void addTo(std::uint32_t result, Layer layer, const glm::vec3& color, const glm::vec3& irradiance);
+    void recordFirstSurface(const Path& path, const Hit& hit, const Surface& surface);
+    Vertex makeVertex(const Ray& ray, const Surface& surface, bool first) const;
+    Response response(const Path& path, const Vertex& vertex, glm::vec3 direction) const;
+    void sampleLights(Path& path, const Vertex& vertex);
+    void samplePunctualLights(Path& path, const Vertex& vertex);
+    void queuePunctual(const Path& path, const Vertex& vertex, const kernels::LightSample& light, float weight);
+    void sampleEmitters(Path& path, const Vertex& vertex);
+    void sampleSky(Path& path, const Vertex& vertex);
+    bool scatter(Path& path, const Vertex& vertex, Ray& ray);
+    void resolveShadows();
+    void resolveLookUps();
+    float lightSampleWeight(float pdfLight, float pdfBsdf) const;
+    float bsdfSampleWeight(float pdfBsdf, float pdfLight) const;
+
+    const Transport& m_transport;
+    PathSettings m_settings;
+    std::span<PathResult> m_results;
+    bool m_fromPoints = false;
+
+    std::vector<Path> m_paths;  ///< alive; parallel with the next three
+    std::vector<Ray> m_rays;
+    std::vector<Hit> m_hits;
+    std::vector<Surface> m_surfaces;
+    std::vector<Pending> m_shadows;
+    std::vector<Ray> m_shadowRays;
+    std::vector<std::uint8_t> m_blocked;
+    std::vector<Pending> m_lookUps;
+    std::vector<Ray> m_lookUpRays;
+};
+
+}  // namespace probegi

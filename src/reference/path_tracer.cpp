@@ -1,0 +1,191 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <new>
+
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "cpu/lighting.h"
+#include "reference/film.h"
+#include "reference/irradiance_estimate.h"
+#include "reference/path_batch.h"
+
+namespace probegi {
+
+struct PathTracer::Impl {
+    Context context;
+    Transport transport;
+};
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kPathsPerBatch = 2048;
+/// Samples a pixel between two looks at the stopping rules.
+constexpr int kMaxSamplesPerPass = 16;
+/// Fewer samples say too little about their own error to stop by it.
+constexpr int kMinSamplesForError = 16;
+
+/// Rays through the pixels of a pinhole camera, uniform over each pixel.
+class PinholeCamera {
+public:
+    explicit PinholeCamera(const PictureDesc& desc)
+        : m_camera(desc.camera), m_width(desc.width), m_height(desc.height) {
+        m_up = std::tan(0.5f * desc.camera.yfov) * desc.camera.up;
+        const glm::vec3 right = glm::cross(desc.camera.forward, desc.camera.up);
+        m_right = std::tan(0.5f * desc.camera.yfov) * float(desc.width) / float(desc.height) * right;
+    }
+    Ray ray(std::size_t pixel, glm::vec2 jitter) const {
+        const float x = (float(pixel % std::size_t(m_width)) + jitter.x) / float(m_width) * 2 - 1;
+        const float y = 1 - (float(pixel / std::size_t(m_width)) + jitter.y) / float(m_height) * 2;
+        return {m_camera.position, 0.0f, glm::normalize(m_camera.forward + x * m_right + y * m_up)};
+    }
+
+private:
+    PlacedCamera m_camera;
+    int m_width;
+    int m_height;
+    glm::vec3 m_right, m_up;
+};
+
+/// When to stop, and how far there is to go.
+class StoppingRules {
+public:
+    explicit StoppingRules(const ReferenceDesc& desc) : m_desc(desc), m_start(Clock::now()) {}
+
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - m_start).count(); }
+
+    bool done(int samples, const Film& film) {
+        if (m_desc.samplesPerPixel > 0 && samples >= m_desc.samplesPerPixel) return true;
+        if (m_desc.seconds > 0 && seconds() >= m_desc.seconds) return true;
+        if (m_desc.relativeError <= 0 || samples < kMinSamplesForError) return false;
+        const double error = film.relativeError();
+        // The error falls like one over the root of the work.
+        m_errorShare = error > 0 ? std::pow(m_desc.relativeError / error, 2) : 1;
+        return error <= m_desc.relativeError;
+    }
+
+    /// Passes grow while they are cheap; the last ones of a time limit shrink so as not to overrun it.
+    int nextPass(int samples) const {
+        int pass = std::clamp(samples, 1, kMaxSamplesPerPass);
+        if (m_desc.samplesPerPixel > 0) pass = std::min(pass, m_desc.samplesPerPixel - samples);
+        if (m_desc.seconds > 0 && samples > 0) {
+            const double perSample = seconds() / samples;
+            pass = std::clamp(int((m_desc.seconds - seconds()) / std::max(perSample, 1e-9)), 1, pass);
+        }
+        return pass;
+    }
+
+    /// Share of the way to whichever limit is nearest. `samples` may be fractional, in the middle of a pass.
+    double fraction(double samples) const {
+        double share = m_errorShare;
+        if (m_desc.samplesPerPixel > 0) share = std::max(share, samples / m_desc.samplesPerPixel);
+        if (m_desc.seconds > 0) share = std::max(share, seconds() / m_desc.seconds);
+        return share;
+    }
+
+private:
+    ReferenceDesc m_desc;
+    Clock::time_point m_start;
+    double m_errorShare = 0;
+};
+
+/// `count` more samples, from number `first` on, for the pixels begin..end.
+void tracePixels(const Transport& transport, const ReferenceDesc& desc, const PinholeCamera& camera, std::size_t begin,
+                 std::size_t end, int first, int count, Film& film) {
+    std::vector<Ray> rays;
+    std::vector<Random> random;
+    for (std::size_t pixel = begin; pixel < end; ++pixel)
+        for (int s = first; s < first + count; ++s) {
+            Random stream(desc.seed, std::uint64_t(s) << 32 | pixel);
+            rays.push_back(camera.ray(pixel, stream.nextPair()));
+            random.push_back(stream);
+        }
+    std::vector<PathResult> results(rays.size());
+    PathBatch(transport, {desc.picture.diffuseOnly, desc.maxBounces}).fromCamera(rays, random, results);
+    for (std::size_t i = 0; i < results.size(); ++i) film.add(begin + i / std::size_t(count), results[i]);
+}
+
+Result<void> checkDesc(const ReferenceDesc& desc) {
+    const auto bad = [](const std::string& sentence) { return fail(ErrorCode::invalidArgument, sentence); };
+    const PictureDesc& picture = desc.picture;
+    if (picture.width < 1 || picture.width > 16384 || picture.height < 1 || picture.height > 16384)
+        return bad(fmt::format("The picture size is {}x{}; each side must be 1 to 16384 pixels.", picture.width,
+                               picture.height));
+    if (!(picture.camera.yfov > 0 && picture.camera.yfov < kernels::kPi))
+        return bad(fmt::format("The camera's yfov is {}; it must lie between 0 and pi.", picture.camera.yfov));
+    if (desc.samplesPerPixel < 0 || !(desc.seconds >= 0) || !(desc.relativeError >= 0) || desc.maxBounces < 0)
+        return bad("samplesPerPixel, seconds, relativeError and maxBounces of the reference must not be negative.");
+    if (desc.samplesPerPixel == 0 && desc.seconds == 0 && desc.relativeError == 0)
+        return bad("The reference has no stopping rule; set samplesPerPixel, seconds or relativeError.");
+    return {};
+}
+
+Result<ReferencePicture> renderPasses(const Context& context, const Transport& transport, const ReferenceDesc& desc) {
+    const PinholeCamera camera(desc.picture);
+    Film film(desc.picture.width, desc.picture.height);
+    StoppingRules rules(desc);
+    Progress progress(context, "path tracing", 1);
+    int samples = 0;
+    while (!rules.done(samples, film)) {
+        const int pass = rules.nextPass(samples);
+        std::atomic<std::size_t> pixelsDone = 0;
+        parallelFor(context, film.pixelCount(), std::max<std::size_t>(1, kPathsPerBatch / std::size_t(pass)),
+                    [&](std::size_t begin, std::size_t end) {
+                        if (progress.cancelled()) return;
+                        tracePixels(transport, desc, camera, begin, end, samples, pass, film);
+                        const auto done = double(pixelsDone += end - begin);
+                        progress.set(rules.fraction(samples + pass * done / double(film.pixelCount())));
+                    });
+        if (progress.cancelled()) return fail(ErrorCode::cancelled, "Path tracing was cancelled.");
+        samples += pass;
+    }
+    if (const std::int64_t rejected = film.rejectedCount(); rejected > 0)
+        context.log(LogLevel::warning, fmt::format("{} paths were not finite and count as black.", rejected));
+    ReferencePicture out = film.develop();
+    out.samplesPerPixel = samples;
+    out.seconds = rules.seconds();
+    return out;
+}
+
+}  // namespace
+
+Result<PathTracer> PathTracer::create(const Context& context, const Scene& scene, const ScenePose& pose,
+                                      const Tracer& tracer, const Lighting& lighting) try {
+    Transport transport{&tracer, lighting.lights, Emitters(scene, pose), SkyLight(lighting.sky),
+                        sceneMagnitude(tracer.bounds())};
+    return PathTracer(std::make_unique<Impl>(Impl{context, std::move(transport)}));
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, "There is not enough memory for the light tables of the reference.");
+}
+
+PathTracer::PathTracer(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
+PathTracer::PathTracer(PathTracer&&) noexcept = default;
+PathTracer& PathTracer::operator=(PathTracer&&) noexcept = default;
+PathTracer::~PathTracer() = default;
+
+Result<ReferencePicture> PathTracer::render(const ReferenceDesc& desc) const try {
+    if (const Result<void> checked = checkDesc(desc); !checked) return tl::unexpected(checked.error());
+    return renderPasses(m_impl->context, m_impl->transport, desc);
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory,
+                fmt::format("There is not enough memory for a reference of {}x{} pixels; make it smaller.",
+                            desc.picture.width, desc.picture.height));
+}
+
+Result<std::vector<ReferenceIrradiance>> PathTracer::irradiance(std::span<const FieldQuery> points, int samples,
+                                                                std::uint64_t seed, bool diffuseOnly) const try {
+    if (samples < 1)
+        return fail(ErrorCode::invalidArgument,
+                    fmt::format("samples is {}; the reference irradiance needs at least 1.", samples));
+    return estimateIrradiance(m_impl->context, m_impl->transport, {diffuseOnly}, points, samples, seed);
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, "There is not enough memory for the reference irradiance; ask in parts.");
+}
+
+}  // namespace probegi
