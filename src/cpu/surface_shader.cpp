@@ -129,6 +129,7 @@ Surface shade(const SurfaceMesh& mesh, const SurfaceTriangle& triangle, const Su
     const bool away = glm::dot(geometric, direction) > 0.0f;
     Surface surface;
     surface.position = position;
+    surface.material = std::int32_t(triangle.material);
     surface.geometricNormal = away ? -geometric : geometric;
     surface.shadingNormal = bendTowards(away ? -normal : normal, toOrigin);
     surface.backface = away && !material.doubleSided;
