@@ -4,6 +4,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "io/srgb.h"
+
 namespace probegi::colour {
 
 namespace {
@@ -41,20 +43,12 @@ float labCurveInverse(float f) {
 
 }  // namespace
 
-float decodeSrgb(float display) {
-    return display <= 0.04045f ? display / 12.92f : std::pow((display + 0.055f) / 1.055f, 2.4f);
-}
-
-float encodeSrgb(float linear) {
-    return linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
 glm::vec3 decodeSrgb(glm::vec3 v) {
-    return {decodeSrgb(v.x), decodeSrgb(v.y), decodeSrgb(v.z)};
+    return {io::decodeSrgb(v.x), io::decodeSrgb(v.y), io::decodeSrgb(v.z)};
 }
 
 glm::vec3 encodeSrgb(glm::vec3 v) {
-    return {encodeSrgb(v.x), encodeSrgb(v.y), encodeSrgb(v.z)};
+    return {io::encodeSrgb(v.x), io::encodeSrgb(v.y), io::encodeSrgb(v.z)};
 }
 
 glm::vec3 xyzFromRgb(glm::vec3 linear) {

@@ -6,9 +6,7 @@
 /// white has Y = 1.
 namespace probegi::colour {
 
-/// sRGB transfer function (IEC 61966-2-1) and its inverse; `encodeSrgb` expects 0..1.
-float decodeSrgb(float display);
-float encodeSrgb(float linear);
+/// sRGB transfer function (IEC 61966-2-1) by channel, and its inverse; both expect 0..1.
 glm::vec3 decodeSrgb(glm::vec3 display);
 glm::vec3 encodeSrgb(glm::vec3 linear);
 

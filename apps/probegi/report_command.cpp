@@ -1,0 +1,171 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "commands.h"
+#include "output.h"
+#include "parse.h"
+#include "report_page.h"
+#include "terminal.h"
+
+namespace probegi::tool {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReportOptions {
+    SceneOptions scene;
+    std::vector<std::string> more;
+    std::string folder, size = "960x540";
+    bool plain = false;
+    std::optional<double> seconds;
+    std::optional<int> samplesPerPixel;
+    ReportSettings settings;
+};
+
+const char* const kFooter =
+    R"(Writes DIR/report.html, one page that needs nothing else, and beside it the pictures as PNG and EXR and the numbers
+as report.json. Options apply to all scenes. Errors are measured on light that clips at white, whatever the pictures
+are shown with.
+
+Example: probegi report builtin:atrium -o out
+Example: probegi report builtin:cornell sponza.glb -o out --size 1280x720 --time 60)";
+
+/// Letters, digits, - and _ of the scene's name: what is safe in a file name anywhere.
+std::string filePrefix(const std::string& scene, std::set<std::string>& taken) {
+    std::string name = scene.rfind("builtin:", 0) == 0 ? scene.substr(8) : fs::path(scene).stem().string();
+    for (char& c : name)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '_';
+    if (name.empty()) name = "scene";
+    std::string unique = name;
+    for (int number = 2; !taken.insert(unique).second; ++number) unique = fmt::format("{}-{}", name, number);
+    return unique;
+}
+
+std::string commandLine(const ReportOptions& options) {
+    std::string line = "probegi report " + options.scene.scene;
+    for (const std::string& scene : options.more) line += " " + scene;
+    return line + fmt::format(" -o {} --size {}", options.folder, options.size);
+}
+
+ReportSettings settingsOf(const ReportOptions& options) {
+    ReportSettings settings = options.settings;
+    const PictureSize size = *parseSize(options.size);
+    settings.width = size.width;
+    settings.height = size.height;
+    settings.samplesPerPixel = options.samplesPerPixel.value_or(0);
+    settings.seconds = options.seconds.value_or(options.samplesPerPixel ? 0 : settings.seconds);
+    return settings;
+}
+
+Result<void> makeFolder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        return fail(ErrorCode::writeFailed, fmt::format("The folder '{}' cannot be made ({}): choose another with -o",
+                                                        folder.string(), error.message()));
+    return checkOutput(folder / "report.html", {});
+}
+
+/// All scenes, before the work begins: a mistyped name is reported at once.
+Result<std::vector<LoadedSetup>> loadAll(const ReportOptions& options) {
+    std::vector<LoadedSetup> setups;
+    SceneOptions one = options.scene;
+    std::vector<std::string> names{options.scene.scene};
+    names.insert(names.end(), options.more.begin(), options.more.end());
+    for (const std::string& name : names) {
+        one.scene = name;
+        auto setup = loadSetup(one);
+        if (!setup) return tl::unexpected(setup.error());
+        setups.push_back(std::move(*setup));
+    }
+    return setups;
+}
+
+Result<void> writeReport(const ReportOptions& options) {
+    const fs::path folder(options.folder);
+    const auto context = makeContext(options.scene.threads);
+    if (!context) return tl::unexpected(context.error());
+    const auto setups = loadAll(options);
+    if (!setups) return tl::unexpected(setups.error());
+    if (auto made = makeFolder(folder); !made) return made;
+
+    Report report{"ProbeGI report", commandLine(options), legendColours(), {}};
+    nlohmann::json numbers = nlohmann::json::array();
+    std::set<std::string> taken;
+    for (std::size_t i = 0; i < setups->size(); ++i) {
+        const std::string& name = i == 0 ? options.scene.scene : options.more[i - 1];
+        const LoadedSetup& setup = (*setups)[i];
+        const auto rendered = renderForReport(*context, setup, settingsOf(options));
+        if (!rendered) return tl::unexpected(rendered.error());
+        auto section =
+            describeScene(*rendered, {folder, filePrefix(name, taken), name}, {setup.exposure, !options.plain});
+        if (!section) return tl::unexpected(section.error());
+        report.scenes.push_back(std::move(*section));
+        numbers.push_back(sceneNumbers(*rendered));
+        numbers.back()["scene"] = name;
+    }
+    if (auto written = writeText(folder / "report.json", numbers.dump(2) + "\n"); !written) return written;
+    if (auto written = writeText(folder / "report.html", reportHtml(report)); !written) return written;
+    fmt::print("{}\n", (folder / "report.html").string());
+    return {};
+}
+
+void addReportOptions(CLI::App& command, ReportOptions& options) {
+    command.add_option("MORE", options.more, "further scenes for the same page")->type_name("");
+    command.add_option("-o,--output", options.folder, "folder for the page and its pictures; made where it is missing")
+        ->type_name("DIR")
+        ->required();
+    command.add_option("--size", options.size, "pixels, each side 1 to 16384")
+        ->type_name("WxH")
+        ->check(parsedBy(parseSize))
+        ->capture_default_str();
+    command
+        .add_option("--time", options.seconds,
+                    fmt::format("reference: seconds a scene (default {} without --spp)", options.settings.seconds))
+        ->type_name("SECONDS")
+        ->check(inRange(0.001, 1e6));
+    command.add_option("--spp", options.samplesPerPixel, "reference: samples a pixel")
+        ->type_name("N")
+        ->check(inRange(1, 1e6));
+    command.add_option("--rays", options.settings.raysPerProbe, "rays per probe and update, 8 to 4096")
+        ->type_name("N")
+        ->check(inRange(8, 4096))
+        ->capture_default_str();
+    command.add_option("--frames", options.settings.frames, "updates of the probes (default: until converged)")
+        ->type_name("N")
+        ->check(inRange(1, 1e6));
+    command
+        .add_option("--ratio-probes", options.settings.ratioProbes,
+                    "probes that are compared with the reference, 1 to 65536")
+        ->type_name("N")
+        ->check(inRange(1, 65536))
+        ->capture_default_str();
+    command.add_flag("--plain", options.plain, "show pictures clipped at white, without a smooth shoulder");
+    command.add_flag("--diffuse-only", options.settings.diffuseOnly,
+                     "all materials as matt surfaces of their base colour");
+    command.add_option("--seed", options.settings.seed, "another number, other noise; equal numbers, equal pictures")
+        ->type_name("N")
+        ->capture_default_str();
+}
+
+}  // namespace
+
+void addReportCommand(CLI::App& app, int& exitCode) {
+    CLI::App* command = app.add_subcommand("report", "no GI, field and reference side by side in one web page");
+    const auto options = std::make_shared<ReportOptions>();
+    addSceneOptions(*command, options->scene);
+    addReportOptions(*command, *options);
+    command->footer(kFooter);
+    command->callback([options, &exitCode] {
+        if (const auto done = writeReport(*options); !done) exitCode = printError(done.error());
+    });
+}
+
+}  // namespace probegi::tool

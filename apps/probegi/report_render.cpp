@@ -1,0 +1,158 @@
+#include "report_render.h"
+
+#include <chrono>
+
+#include "render_stats.h"
+
+namespace probegi::tool {
+
+namespace {
+
+constexpr float kTolerance = 0.01f;
+constexpr int kMaxFrames = 256;
+
+class Stopwatch {
+public:
+    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count(); }
+
+private:
+    std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
+};
+
+PictureDesc pictureDesc(const LoadedSetup& setup, const ReportSettings& settings) {
+    PictureDesc desc;
+    desc.camera = setup.camera;
+    desc.width = settings.width;
+    desc.height = settings.height;
+    desc.diffuseOnly = settings.diffuseOnly;
+    return desc;
+}
+
+/// Mean standard error over mean value, over all pixels and channels.
+double relativeNoise(const ReferencePicture& reference) {
+    double error = 0;
+    double value = 0;
+    for (std::size_t i = 0; i < reference.standardError.pixels.size(); ++i) {
+        const glm::vec3 e = reference.standardError.pixels[i];
+        const glm::vec3 v = reference.picture.color.pixels[i];
+        error += double(e.x) + e.y + e.z;
+        value += double(v.x) + v.y + v.z;
+    }
+    return value > 0 ? error / value : 0;
+}
+
+Result<FieldResult> runField(Field& field, const Tracer& tracer, const Lighting& lighting,
+                             const ReportSettings& settings) {
+    FieldResult result;
+    std::vector<UpdateTimes> times;
+    const Stopwatch watch;
+    if (settings.frames) {
+        for (int frame = 0; frame < *settings.frames; ++frame) {
+            const auto update = field.update(tracer, lighting);
+            if (!update) return tl::unexpected(update.error());
+            times.push_back(*update);
+        }
+        result.updates = *settings.frames;
+    } else {
+        const auto record = [&](const UpdateTimes& update) { times.push_back(update); };
+        const auto updates = field.converge(tracer, lighting, kTolerance, kMaxFrames, record);
+        if (!updates) return tl::unexpected(updates.error());
+        result.updates = *updates;
+    }
+    result.seconds = watch.seconds();
+    result.update = medianTimes(times);
+    result.memory = field.memory();
+    return result;
+}
+
+Result<MethodResult> drawMethod(const Context& context, const Tracer& tracer, const LoadedSetup& setup,
+                                const ReportSettings& settings, const Field* field) {
+    auto rendered = renderPicture(context, tracer, setup.lighting, field, pictureDesc(setup, settings));
+    if (!rendered) return tl::unexpected(rendered.error());
+    MethodResult result;
+    result.picture = std::move(rendered->picture);
+    result.pictureMs = rendered->times.total;
+    return result;
+}
+
+Result<void> judge(MethodResult& method, const Picture& reference, const ToneMap& toneMap) {
+    auto whole = compareImages(method.picture.color, reference.color, toneMap);
+    if (!whole) return tl::unexpected(whole.error());
+    const auto indirect = compareImages(method.picture.indirect, reference.indirect, toneMap);
+    if (!indirect) return tl::unexpected(indirect.error());
+    method.whole = std::move(*whole);
+    method.indirectOnly = indirect->difference;
+    return {};
+}
+
+/// The field with and without its leak guard. The second run starts from the first one's light, which it forgets.
+Result<void> drawFields(const Context& context, const Tracer& tracer, const LoadedSetup& setup,
+                        const ReportSettings& settings, RenderedScene& scene) {
+    FieldDesc desc;
+    desc.grid = setup.grid;
+    desc.raysPerProbe = settings.raysPerProbe;
+    desc.seed = settings.seed;
+    auto field = Field::create(context, desc);
+    if (!field) return tl::unexpected(field.error());
+    const auto run = [&](LeakGuard guard, FieldResult& result, MethodResult& method) -> Result<void> {
+        field->setGuard(guard);
+        auto done = runField(*field, tracer, setup.lighting, settings);
+        if (!done) return tl::unexpected(done.error());
+        result = *done;
+        result.ratio = percentiles(probeRatios(*field, scene.truth));
+        auto drawn = drawMethod(context, tracer, setup, settings, &*field);
+        if (!drawn) return tl::unexpected(drawn.error());
+        method = std::move(*drawn);
+        return {};
+    };
+    if (auto done = run(LeakGuard::moments, scene.ddgiField, scene.ddgi); !done) return done;
+    return run(LeakGuard::none, scene.leakyField, scene.leaky);
+}
+
+Result<void> drawReference(const PathTracer& pathTracer, const LoadedSetup& setup, const ReportSettings& settings,
+                           RenderedScene& scene) {
+    ReferenceDesc desc;
+    desc.picture = pictureDesc(setup, settings);
+    desc.seconds = settings.seconds;
+    desc.samplesPerPixel = settings.samplesPerPixel;
+    desc.seed = settings.seed;
+    auto reference = pathTracer.render(desc);
+    if (!reference) return tl::unexpected(reference.error());
+    scene.referenceSamples = reference->samplesPerPixel;
+    scene.referenceSeconds = reference->seconds;
+    scene.referenceNoise = relativeNoise(*reference);
+    scene.reference = std::move(reference->picture);
+    return {};
+}
+
+}  // namespace
+
+Result<RenderedScene> renderForReport(const Context& context, const LoadedSetup& setup,
+                                      const ReportSettings& settings) {
+    RenderedScene scene;
+    scene.triangles = triangleCount(*setup.scene, setup.pose);
+    scene.lights = setup.lighting.lights.size();
+    scene.grid = setup.grid;
+    const Stopwatch watch;
+    const auto tracer = makeEmbreeTracer(context, *setup.scene, setup.pose);
+    if (!tracer) return tl::unexpected(tracer.error());
+    const auto pathTracer = PathTracer::create(context, *setup.scene, setup.pose, **tracer, setup.lighting);
+    if (!pathTracer) return tl::unexpected(pathTracer.error());
+    scene.prepareSeconds = watch.seconds();
+
+    auto truth = traceProbeTruth(**tracer, *pathTracer, setup.grid, settings.ratioProbes, settings.ratioSamples,
+                                 settings.diffuseOnly);
+    if (!truth) return tl::unexpected(truth.error());
+    scene.truth = std::move(*truth);
+    auto none = drawMethod(context, **tracer, setup, settings, nullptr);
+    if (!none) return tl::unexpected(none.error());
+    scene.none = std::move(*none);
+    if (auto done = drawFields(context, **tracer, setup, settings, scene); !done) return tl::unexpected(done.error());
+    if (auto done = drawReference(*pathTracer, setup, settings, scene); !done) return tl::unexpected(done.error());
+    for (MethodResult* method : {&scene.none, &scene.leaky, &scene.ddgi})
+        if (auto done = judge(*method, scene.reference, {setup.exposure, false}); !done)
+            return tl::unexpected(done.error());
+    return scene;
+}
+
+}  // namespace probegi::tool

@@ -1,0 +1,125 @@
+#include "report_tables.h"
+
+#include <fmt/format.h>
+
+#include "machine.h"
+#include "output.h"
+
+namespace probegi::tool {
+
+namespace {
+
+std::string milliseconds(double ms) {
+    if (ms >= 10000) return fmt::format("{:.1f} s", ms / 1000);
+    return ms >= 100 ? fmt::format("{:.0f} ms", ms) : fmt::format("{:.2g} ms", ms);
+}
+
+std::string megabytes(std::size_t bytes) {
+    return fmt::format("{:.1f} MB", double(bytes) / 1e6);
+}
+
+std::string percent(double share) {
+    return fmt::format("{:.1f} %", 100 * share);
+}
+
+std::vector<std::string> differenceRow(const char* name, const ImageDifference& d) {
+    return {name, fmt::format("{:.4f}", d.rmse), fmt::format("{:.4f}", d.relmse), fmt::format("{:.4f}", d.flip)};
+}
+
+ReportTable wholeTable(const RenderedScene& scene) {
+    return {"Error of the whole picture",
+            {"", "RMSE", "relMSE", "FLIP"},
+            {differenceRow("No GI", scene.none.whole.difference),
+             differenceRow("Leaking field", scene.leaky.whole.difference),
+             differenceRow("Field", scene.ddgi.whole.difference)},
+            fmt::format("The reference has noise of its own: its standard error is {} of its mean at {} samples a "
+                        "pixel.",
+                        percent(scene.referenceNoise), grouped(std::size_t(scene.referenceSamples)))};
+}
+
+ReportTable indirectTable(const RenderedScene& scene) {
+    return {"Error of the indirect light alone",
+            {"", "RMSE", "relMSE", "FLIP"},
+            {differenceRow("No GI", scene.none.indirectOnly), differenceRow("Leaking field", scene.leaky.indirectOnly),
+             differenceRow("Field", scene.ddgi.indirectOnly)},
+            ""};
+}
+
+ReportTable ratioTable(const RenderedScene& scene) {
+    const auto row = [](const char* name, const Percentiles& p) {
+        return std::vector<std::string>{name, fmt::format("{:.3f}", p.low), fmt::format("{:.3f}", p.median),
+                                        fmt::format("{:.3f}", p.high)};
+    };
+    const ProbeTruth& truth = scene.truth;
+    return {"Irradiance at the probes, over the reference",
+            {"", "5th percentile", "median", "95th percentile"},
+            {row("Leaking field", scene.leakyField.ratio), row("Field", scene.ddgiField.ratio)},
+            fmt::format("1 is right. {} probes spread over the grid; left out: {} inside walls (over a quarter of "
+                        "their rays hit the back of a wall) and {} with too little light for a ratio. Noise of the "
+                        "reference at a probe: {}.",
+                        truth.probes.size(), truth.inWalls, truth.dark, percent(truth.noise))};
+}
+
+ReportTable timeTable(const RenderedScene& scene) {
+    const FieldResult& field = scene.ddgiField;
+    return {"Time",
+            {},
+            {{"One update: rays", milliseconds(field.update.trace)},
+             {"One update: light at their hits", milliseconds(field.update.shade)},
+             {"One update: blend into the probes", milliseconds(field.update.blend)},
+             {"One update: total", milliseconds(field.update.total)},
+             {"Updates until this picture", fmt::format("{} in {:.1f} s", field.updates, field.seconds)},
+             {"Picture without GI", milliseconds(scene.none.pictureMs)},
+             {"Picture with the field", milliseconds(scene.ddgi.pictureMs)},
+             {"Reference", fmt::format("{:.1f} s", scene.referenceSeconds)},
+             {"Ray tracer set up", fmt::format("{:.2f} s", scene.prepareSeconds)}},
+            fmt::format("Medians, on {}.", processorName())};
+}
+
+ReportTable sceneTable(const RenderedScene& scene) {
+    const GridDesc& grid = scene.grid;
+    const FieldMemory& memory = scene.ddgiField.memory;
+    const auto probes = std::size_t(probeCount(grid));
+    return {"Scene and memory",
+            {},
+            {{"Triangles", grouped(scene.triangles)},
+             {"Lights besides sky and glowing surfaces", grouped(scene.lights)},
+             {"Probes", fmt::format("{} x {} x {} = {}", grid.counts.x, grid.counts.y, grid.counts.z, grouped(probes))},
+             {"Metres between probes",
+              fmt::format("{:.3g} x {:.3g} x {:.3g}", grid.spacing.x, grid.spacing.y, grid.spacing.z)},
+             {"Memory of the probes", fmt::format("{}, {:.0f} bytes each", megabytes(memory.persistentBytes()),
+                                                  double(memory.persistentBytes()) / double(probes))},
+             {"Scratch memory of updates", megabytes(memory.scratchBytes)},
+             {"Largest memory of the whole run so far", megabytes(peakMemoryBytes())}},
+            ""};
+}
+
+}  // namespace
+
+std::string grouped(std::size_t number) {
+    std::string text = std::to_string(number);
+    for (int at = int(text.size()) - 3; at > 0; at -= 3) text.insert(std::size_t(at), ",");
+    return text;
+}
+
+std::vector<ReportTable> reportTables(const RenderedScene& scene) {
+    return {wholeTable(scene), indirectTable(scene), ratioTable(scene), timeTable(scene), sceneTable(scene)};
+}
+
+std::vector<ReportFigure> reportFigures(const RenderedScene& scene) {
+    return {{fmt::format("{:.3f}", scene.ddgiField.ratio.median), "light at the probes over the reference, median"},
+            {fmt::format("{:.3f}", scene.ddgi.whole.difference.flip),
+             fmt::format("visible error of the field (FLIP); without GI {:.3f}", scene.none.whole.difference.flip)},
+            {milliseconds(scene.ddgiField.update.total), "one update of all probes"},
+            {milliseconds(scene.ddgi.pictureMs), "picture with the field"},
+            {fmt::format("{:.1f} s", scene.referenceSeconds),
+             fmt::format("reference, {} samples a pixel", grouped(std::size_t(scene.referenceSamples)))}};
+}
+
+std::string reportSummary(const RenderedScene& scene) {
+    return fmt::format("{} triangles lit through {} probes; pictures of {} x {} pixels.", grouped(scene.triangles),
+                       grouped(std::size_t(probeCount(scene.grid))), scene.reference.color.width,
+                       scene.reference.color.height);
+}
+
+}  // namespace probegi::tool
