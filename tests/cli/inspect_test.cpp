@@ -1,0 +1,72 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.h"
+#include "probegi/builtin_scenes.h"
+#include "probegi/image.h"
+
+namespace probegi::test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Inspect, ScenesListsAllOfThem) {
+    const ToolRun run = runTool({"scenes"});
+    EXPECT_EQ(run.exitCode, 0);
+    for (const BuiltinScene& scene : builtinScenes()) {
+        EXPECT_THAT(run.out, HasSubstr(std::string(scene.name)));
+        EXPECT_THAT(run.out, HasSubstr(std::string(scene.description)));
+    }
+}
+
+TEST(Inspect, InfoOfEveryBuiltinScene) {
+    for (const BuiltinScene& scene : builtinScenes()) {
+        const std::string name = "builtin:" + std::string(scene.name);
+        const ToolRun text = runTool({"info", name});
+        EXPECT_EQ(text.exitCode, 0) << name;
+        for (const char* word : {"triangles", "materials", "bounds", "lights", "cameras", "probe grid"})
+            EXPECT_THAT(text.out, HasSubstr(word)) << name;
+        const auto info = nlohmann::json::parse(runTool({"info", name, "--json"}).out);
+        EXPECT_GT(info["triangles"], 0) << name;
+        EXPECT_TRUE(info["lit"]) << name;
+        EXPECT_GT(info["grid"]["probes"], 0) << name;
+        EXPECT_TRUE(info["warnings"].empty()) << name;
+    }
+}
+
+TEST(Inspect, CompareMeasuresAndDraws) {
+    const TemporaryFolder folder;
+    const std::string a = folder.file("a.exr"), b = folder.file("b.exr"), map = folder.file("map.png");
+    ASSERT_TRUE(writeImage(a, HdrImage(32, 18, glm::vec3(0.5f))));
+    ASSERT_TRUE(writeImage(b, HdrImage(32, 18, glm::vec3(0.25f))));
+    const auto measure = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "compare");
+        arguments.push_back("--json");
+        const ToolRun run = runTool(arguments);
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        return nlohmann::json::parse(run.out);
+    };
+    const auto same = measure({a, a});
+    EXPECT_EQ(same.size(), 3u);
+    for (const char* key : {"rmse", "relmse", "flip"}) EXPECT_EQ(same[key], 0) << key;
+    const auto different = measure({a, b, "--heatmap", map});
+    for (const char* key : {"rmse", "relmse", "flip"}) EXPECT_GT(different[key], 0) << key;
+    EXPECT_TRUE(readImage(map));
+    EXPECT_LT(measure({a, b, "--exposure", "0.01"})["rmse"], different["rmse"]);
+    EXPECT_THAT(runTool({"compare", a, b}).out, HasSubstr("flip"));
+}
+
+TEST(Inspect, CompareRefusesDifferentSizes) {
+    const TemporaryFolder folder;
+    const std::string a = folder.file("a.exr"), b = folder.file("b.exr");
+    ASSERT_TRUE(writeImage(a, HdrImage(32, 18)));
+    ASSERT_TRUE(writeImage(b, HdrImage(18, 32)));
+    const ToolRun run = runTool({"compare", a, b, "--heatmap", folder.file("map.png")});
+    EXPECT_EQ(run.exitCode, 1);
+    EXPECT_THAT(run.err, HasSubstr("32x18"));
+    EXPECT_EQ(folder.entries(), 2u);
+}
+
+}  // namespace
+}  // namespace probegi::test

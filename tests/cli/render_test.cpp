@@ -1,0 +1,196 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.h"
+#include "probegi/image.h"
+
+namespace probegi::test {
+namespace {
+
+using testing::HasSubstr;
+
+// A square floor without any light, one metre each way, with positions in a data URI.
+constexpr const char* kUnlitFloor = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+ "nodes": [{"mesh": 0}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}],
+ "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+
+// A tiny render; expects success without a word.
+HdrImage render(std::vector<std::string> arguments, const std::string& scene = "builtin:cornell") {
+    const TemporaryFolder folder;
+    const std::string out = folder.file("a.exr");
+    arguments.insert(arguments.begin(), {"render", scene, "-o", out, "--size", "32x18"});
+    const ToolRun run = runTool(arguments);
+    EXPECT_EQ(run.exitCode, 0) << testing::PrintToString(arguments);
+    EXPECT_EQ(run.err, "");
+    EXPECT_EQ(run.out, "");
+    const auto image = readImage(out);
+    EXPECT_TRUE(image) << testing::PrintToString(arguments);
+    EXPECT_EQ(folder.entries(), 1u);
+    if (!image) return {};
+    EXPECT_EQ(image->width, 32);
+    EXPECT_EQ(image->height, 18);
+    return *image;
+}
+
+double mean(const HdrImage& image) {
+    double sum = 0;
+    for (const glm::vec3& pixel : image.pixels) sum += pixel.x + pixel.y + pixel.z;
+    return sum / double(3 * image.pixels.size());
+}
+
+const std::vector<std::string> kQuick{"--frames", "2", "--probes", "4x4x4", "--rays", "32", "--antialias", "1"};
+
+std::vector<std::string> quick(std::vector<std::string> more) {
+    more.insert(more.end(), kQuick.begin(), kQuick.end());
+    return more;
+}
+
+TEST(Render, EveryMethodMakesAPicture) {
+    const double none = mean(render({"--method", "none"}));
+    const double ddgi = mean(render(quick({"--method", "ddgi"})));
+    const double leaky = mean(render(quick({"--method", "leaky"})));
+    const double reference = mean(render({"--method", "reference", "--spp", "2"}));
+    EXPECT_GT(none, 0);
+    EXPECT_GT(ddgi, none);
+    EXPECT_GT(leaky, none);
+    EXPECT_GT(reference, none);
+}
+
+TEST(Render, UntilConverged) {
+    EXPECT_GT(mean(render({"--probes", "4x4x4", "--rays", "32"})), 0);
+}
+
+TEST(Render, ReferenceStopsAfterATime) {
+    EXPECT_GT(mean(render({"--method", "reference", "--time", "0.2"})), 0);
+}
+
+TEST(Render, EveryLayer) {
+    for (const char* layer : {"irradiance", "normal", "albedo", "depth", "direct", "indirect", "color"}) {
+        const HdrImage image = render(quick({"--aov", layer}));
+        double magnitude = 0;
+        for (const glm::vec3& p : image.pixels) magnitude += std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
+        EXPECT_GT(magnitude, 0) << layer;
+    }
+}
+
+TEST(Render, LayersAddUp) {
+    const HdrImage color = render(quick({})), direct = render(quick({"--aov", "direct"})),
+                   indirect = render(quick({"--aov", "indirect"})), depth = render(quick({"--aov", "depth"}));
+    for (std::size_t i = 0; i < color.pixels.size(); ++i) {
+        if (depth.pixels[i].x > 0) {
+            EXPECT_EQ(color.pixels[i], direct.pixels[i] + indirect.pixels[i]);
+        }
+    }
+}
+
+TEST(Render, ThreadsDoNotChangeThePictureAndSeedsDo) {
+    const auto pixels = [](std::vector<std::string> options) { return render(quick(std::move(options))).pixels; };
+    const auto one = pixels({"--threads", "1"});
+    EXPECT_TRUE(one == pixels({"--threads", "2"}));
+    EXPECT_FALSE(one == pixels({"--threads", "1", "--seed", "2"}));
+}
+
+TEST(Render, OverridesReplaceWhatTheSceneSays) {
+    const std::vector<std::string> none{"--method", "none"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), none.begin(), none.end());
+        return mean(render(std::move(more)));
+    };
+    const double plain = with({});
+    for (const std::vector<std::string>& change :
+         std::vector<std::vector<std::string>>{{"--sun", "-0.2,-1,-0.9,50"},
+                                               {"--point", "0.5,0.5,0.5,5,6,7"},
+                                               {"--point", "0.5,0.5,0.5,5,6,7", "--point", "1,1,1,5,6,7"},
+                                               {"--sky", "5,6,7"},
+                                               {"--camera", "0", "--fov", "20"},
+                                               {"--look-from", "0.3,3.5,0.2", "--look-at", "0.1,0.2,0.3"},
+                                               {"--diffuse-only", "--aov", "depth"}})
+        EXPECT_NE(with(change), plain) << testing::PrintToString(change);
+}
+
+TEST(Render, BuiltinParametersAndVolume) {
+    const double dim = mean(render({"--method", "none", "--emission", "1"}, "builtin:furnace"));
+    const double bright = mean(render({"--method", "none", "--emission", "4"}, "builtin:furnace"));
+    EXPECT_NEAR(bright, 4 * dim, 1e-4 * bright);
+    EXPECT_GT(mean(render({"--volume", "-1,-1,-1:1:5x5x5", "--frames", "1", "--rays", "8", "--time-of-scene", "0.5"})),
+              0);
+    EXPECT_GT(mean(render({"--method", "none", "--wall", "0.2"}, "builtin:two-rooms")), 0);
+}
+
+TEST(Render, PngFollowsExposure) {
+    const TemporaryFolder folder;
+    const auto png = [&](const std::string& exposure, bool filmic) {
+        std::vector<std::string> arguments{"render", "builtin:cornell", "-o",   folder.file("a.png"), "--size",
+                                           "32x18",  "--method",        "none", "--exposure",         exposure};
+        if (filmic) arguments.push_back("--filmic");
+        EXPECT_EQ(runTool(arguments).exitCode, 0);
+        return mean(readImage(folder.file("a.png")).value());
+    };
+    const double dark = png("0.01", false);
+    EXPECT_LT(dark, png("0.02", false));
+    EXPECT_NE(png("0.5", false), png("0.5", true));
+}
+
+TEST(Render, StatsHaveExactlyTheirKeys) {
+    const TemporaryFolder folder;
+    const ToolRun run = runTool({"render", "builtin:cornell", "-o", folder.file("a.png"), "--size", "32x18", "--stats",
+                                 folder.file("s.json"), "--frames", "3", "--probes", "4x5x6", "--rays", "24"});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    const auto stats = nlohmann::json::parse(readText(folder.file("s.json")));
+    const auto keys = [](const nlohmann::json& object) {
+        std::vector<std::string> names;
+        for (const auto& [name, value] : object.items()) names.push_back(name);
+        return names;
+    };
+    EXPECT_THAT(keys(stats), testing::UnorderedElementsAre("probes", "raysPerProbe", "frames", "updateMs", "pictureMs",
+                                                           "peakMemoryBytes"));
+    EXPECT_THAT(keys(stats["updateMs"]), testing::UnorderedElementsAre("trace", "shade", "blend", "total"));
+    EXPECT_EQ(stats["probes"], 120);
+    EXPECT_EQ(stats["raysPerProbe"], 24);
+    EXPECT_EQ(stats["frames"], 3);
+    EXPECT_GT(stats["updateMs"]["total"], 0);
+    EXPECT_GT(stats["pictureMs"], 0);
+    EXPECT_GT(stats["peakMemoryBytes"], 1 << 20);
+    EXPECT_EQ(folder.entries(), 2u);
+}
+
+TEST(Render, SceneWithoutLightNamesTheOptionsThatAddOne) {
+    const TemporaryFolder folder;
+    writeText(folder.file("dark.gltf"), kUnlitFloor);
+    const std::string out = folder.file("a.png");
+    const ToolRun dark = runTool({"render", folder.file("dark.gltf"), "-o", out, "--size", "32x18"});
+    EXPECT_EQ(dark.exitCode, 1);
+    for (const char* option : {"--sun", "--point", "--sky", "dark.gltf"}) EXPECT_THAT(dark.err, HasSubstr(option));
+    EXPECT_EQ(folder.entries(), 1u);
+    for (const std::vector<std::string>& light :
+         std::vector<std::vector<std::string>>{{"--sun", "0,0,-1,5"}, {"--point", "0,0,1,5,5,5"}, {"--sky", "1,1,1"}}) {
+        std::vector<std::string> arguments{"render", folder.file("dark.gltf"), "-o", out, "--size", "32x18"};
+        arguments.insert(arguments.end(), light.begin(), light.end());
+        const ToolRun lit = runTool(quick(arguments));
+        EXPECT_EQ(lit.exitCode, 0) << lit.err;
+    }
+}
+
+TEST(Render, AnImageAsSky) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder.file("sky.exr"), HdrImage(8, 4, glm::vec3(2, 0, 0))));
+    const HdrImage image = render(
+        {"--method", "none", "--sky", folder.file("sky.exr"), "--look-from", "0,500,0", "--look-at", "0,501,0.1"});
+    for (const glm::vec3& pixel : image.pixels) EXPECT_EQ(pixel, glm::vec3(2, 0, 0));
+}
+
+TEST(Render, OptionsOfAnotherMethodWarn) {
+    const TemporaryFolder folder;
+    const ToolRun run = runTool(
+        {"render", "builtin:cornell", "-o", folder.file("a.png"), "--size", "32x18", "--method", "none", "--spp", "4"});
+    EXPECT_EQ(run.exitCode, 0);
+    EXPECT_THAT(run.err, testing::StartsWith("warning: "));
+}
+
+}  // namespace
+}  // namespace probegi::test
