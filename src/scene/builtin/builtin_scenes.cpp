@@ -1,0 +1,70 @@
+#include "probegi/builtin_scenes.h"
+
+#include <fmt/format.h>
+#include <array>
+#include <cmath>
+
+#include "scene/builtin/builtin.h"
+
+namespace probegi {
+
+namespace {
+
+struct Entry {
+    BuiltinScene scene;
+    Result<Scene> (*make)(const BuiltinParams&);
+};
+
+constexpr std::array kEntries{
+    Entry{{"atrium", "a two-storey colonnade around a sunlit court, with cloth, plants and a fountain"},
+          builtin::makeAtrium},
+    Entry{{"house", "a furnished two-storey house with coloured rooms, lit by sun and sky through its windows"},
+          builtin::makeHouse},
+    Entry{{"cornell", "the Cornell box: red and green walls, two blocks, a lamp in the ceiling"}, builtin::makeCornell},
+    Entry{{"two-rooms", "a sunlit room and a second one that gets its light through the doorway (wallThickness)"},
+          builtin::makeTwoRooms},
+    Entry{{"dark-room", "a sealed room beside a sunlit one: whatever is bright in it has leaked (wallThickness)"},
+          builtin::makeDarkRoom},
+    Entry{{"furnace", "a closed glowing box with a known answer everywhere (albedo, emission)"}, builtin::makeFurnace},
+    Entry{{"sphere", "an integrating sphere around a point light, with a known answer (albedo, power, radius)"},
+          builtin::makeSphere},
+};
+
+constexpr auto kScenes = [] {
+    std::array<BuiltinScene, kEntries.size()> scenes;
+    for (std::size_t i = 0; i < scenes.size(); ++i) scenes[i] = kEntries[i].scene;
+    return scenes;
+}();
+
+}  // namespace
+
+std::span<const BuiltinScene> builtinScenes() {
+    return kScenes;
+}
+
+Result<Scene> makeBuiltinScene(std::string_view name, const BuiltinParams& params) {
+    std::string known;
+    for (const Entry& entry : kEntries) {
+        if (entry.scene.name == name) return entry.make(params);
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.scene.name);
+    }
+    return fail(ErrorCode::invalidArgument,
+                fmt::format("there is no built-in scene called '{}'; the built-in scenes are: {}", name, known));
+}
+
+namespace builtin {
+
+Result<void> requireWithin(std::string_view parameter, float value, float lower, float upper) {
+    if (value >= lower && value <= upper) return {};
+    return fail(ErrorCode::invalidArgument,
+                fmt::format("{} is {:g}; it must be {:g}..{:g}", parameter, value, lower, upper));
+}
+
+Result<void> requirePositive(std::string_view parameter, float value) {
+    if (std::isfinite(value) && value > 0) return {};
+    return fail(ErrorCode::invalidArgument, fmt::format("{} is {:g}; it must be finite and > 0", parameter, value));
+}
+
+}  // namespace builtin
+
+}  // namespace probegi

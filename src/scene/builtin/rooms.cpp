@@ -1,0 +1,142 @@
+#include "scene/builtin/box_solid.h"
+#include "scene/builtin/builtin.h"
+#include "scene/builtin/scene_parts.h"
+#include "scene/builtin/textures.h"
+
+namespace probegi::builtin {
+
+namespace {
+
+/// Two rooms along X, 5 x 2.8 x 5 m each, on open ground; the wall between them is centred on x = 0. All walls and the
+/// roof are `thickness` metres thick.
+struct Rooms {
+    float thickness;
+    float width = 5.0f, height = 2.8f, depth = 5.0f;
+    float left() const { return -width - 0.5f * thickness; }  ///< inner face of the first room's far wall
+    float right() const { return width + 0.5f * thickness; }
+    float wall() const { return 0.5f * thickness; }
+    float back() const { return -0.5f * depth; }
+    float front() const { return 0.5f * depth; }
+};
+
+struct Materials {
+    int ground, outside, plaster, floor, ceiling, accentA, accentB;
+};
+
+Materials addMaterials(Scene& scene) {
+    Materials m;
+    m.ground =
+        addTextured(scene, "ground", squareTilesTexture({0.42f, 0.38f, 0.33f}, {0.25f, 0.24f, 0.22f}, 4, 3), 3.0f);
+    m.outside = addTextured(scene, "render", plasterTexture({0.66f, 0.58f, 0.47f}, 17), 3.0f);
+    m.plaster = addTextured(scene, "plaster", plasterTexture({0.74f, 0.72f, 0.68f}, 5), 2.5f);
+    m.floor = addTextured(scene, "planks", plankTexture({0.42f, 0.25f, 0.13f}, 8, 21), 1.6f, 0.6f);
+    m.ceiling = addMaterial(scene, "ceiling", {0.8f, 0.8f, 0.78f});
+    m.accentA = addTextured(scene, "terracotta wall", plasterTexture({0.62f, 0.23f, 0.12f}, 8), 2.5f);
+    m.accentB = addTextured(scene, "blue wall", plasterTexture({0.14f, 0.3f, 0.52f}, 9), 2.5f);
+    return m;
+}
+
+/// The shell with both rooms carved out and nothing open yet.
+BoxSolid shell(const Rooms& r, const Materials& m) {
+    const float t = r.thickness;
+    BoxSolid solid;
+    solid.fill({-14, -0.4f, -12}, {14, -0.05f, 12}, m.ground);
+    solid.fill({r.left() - t, -0.4f, r.back() - t}, {r.right() + t, r.height + t, r.front() + t}, m.outside);
+    Paint first = Paint::room(m.plaster, m.floor, m.ceiling);
+    first.byNormal[0] = m.accentA;
+    solid.carve({r.left(), 0, r.back()}, {-r.wall(), r.height, r.front()}, first);
+    Paint second = Paint::room(m.plaster, m.floor, m.ceiling);
+    second.byNormal[1] = m.accentB;
+    solid.carve({r.wall(), 0, r.back()}, {r.right(), r.height, r.front()}, second);
+    return solid;
+}
+
+/// A window the width of the room but for its edges, in the front wall of the first room.
+void openWindow(BoxSolid& solid, const Rooms& r, const Materials& m) {
+    solid.carve({r.left() + 0.5f, 0.5f, r.front()}, {-r.wall() - 0.5f, 2.4f, r.front() + r.thickness},
+                Paint::all(m.plaster));
+}
+
+/// Half a millimetre above the floor: see block() in cornell.cpp.
+constexpr float kGap = 0.0005f;
+
+void addTable(Scene& scene, int material, glm::vec3 position, float yaw) {
+    MeshBuilder out(material);
+    out.bevelledBox({-0.8f, 0.70f, -0.45f}, {0.8f, 0.75f, 0.45f}, 0.01f);
+    for (const float x : {-0.7f, 0.7f}) {
+        for (const float z : {-0.36f, 0.36f}) {
+            out.box({x - 0.035f, 0, z - 0.035f}, {x + 0.035f, 0.71f, z + 0.035f});
+        }
+    }
+    place(scene, addMesh(scene, "table", {std::move(out)}), position + glm::vec3(0, kGap, 0), yaw);
+}
+
+void addBall(Scene& scene, int material, glm::vec3 floor, float radius) {
+    MeshBuilder out(material);
+    addGeodesicSphere(out, 4, [&](glm::vec3) { return radius; });
+    place(scene, addMesh(scene, "ball", {std::move(out)}), floor + glm::vec3(0, radius + kGap, 0));
+}
+
+void addCrate(Scene& scene, int material, glm::vec3 floor, glm::vec3 size, float yaw) {
+    MeshBuilder out(material);
+    const glm::vec3 half(0.5f * size.x, 0, 0.5f * size.z);
+    out.bevelledBox(-half, half + glm::vec3(0, size.y, 0), 0.015f);
+    place(scene, addMesh(scene, "crate", {std::move(out)}), floor + glm::vec3(0, kGap, 0), yaw);
+}
+
+void furnish(Scene& scene, float side) {
+    const int wood = addTextured(scene, "wood", plankTexture({0.5f, 0.33f, 0.18f}, 4, 33), 0.8f, 0.5f);
+    const int yellow = addMaterial(scene, "yellow", {0.75f, 0.5f, 0.08f});
+    const int white = addMaterial(scene, "white", {0.8f, 0.8f, 0.8f});
+    const int teal = addMaterial(scene, "teal", {0.06f, 0.4f, 0.38f});
+    addTable(scene, wood, {side * 2.9f, 0, -0.9f}, 0.3f);
+    addBall(scene, white, {side * 2.8f, 0.75f, -0.9f}, 0.2f);
+    addCrate(scene, yellow, {side * 4.2f, 0, -1.7f}, {0.8f, 0.8f, 0.8f}, 0.5f);
+    addCrate(scene, teal, {side * 1.1f, 0, -1.9f}, {0.6f, 1.4f, 0.6f}, 0.15f);
+    addBall(scene, yellow, {side * 1.7f, 0, 0.6f}, 0.35f);
+}
+
+Result<Scene> makeRooms(const BuiltinParams& params, const char* name, bool doorway) {
+    if (auto r = requireWithin("wallThickness", params.wallThickness, 0.02f, 0.30f); !r) {
+        return tl::unexpected(r.error());
+    }
+    const Rooms r{params.wallThickness};
+    Scene scene;
+    scene.name = name;
+    const Materials m = addMaterials(scene);
+    BoxSolid solid = shell(r, m);
+    openWindow(solid, r, m);
+    if (doorway) solid.carve({-r.wall(), 0, 0.2f}, {r.wall(), 2.1f, 1.5f}, Paint::room(m.plaster, m.floor, m.plaster));
+    place(scene, addMesh(scene, solid.build("walls")));
+    furnish(scene, -1);
+    furnish(scene, 1);
+
+    addSun(scene, {0.25f, -1, -0.9f}, glm::vec3(14.0f, 12.6f, 10.6f));
+    scene.sky.radiance = {0.45f, 0.6f, 0.9f};
+    addCamera(scene, "lit", {-r.wall() - 0.4f, 1.6f, 2.1f}, {-3.6f, 1.0f, -1.5f}, 65);
+    return scene;
+}
+
+}  // namespace
+
+Result<Scene> makeTwoRooms(const BuiltinParams& params) {
+    auto scene = makeRooms(params, "two-rooms", true);
+    if (!scene) return scene;
+    addCamera(*scene, "second", {4.5f, 1.6f, 1.9f}, {0, 1.1f, -0.1f}, 68);
+    addCamera(*scene, "doorway", {-4.2f, 1.6f, 0.2f}, {4, 1.1f, 1.0f}, 60);
+    addCamera(*scene, "outside", {-6.5f, 4.2f, 10.5f}, {-0.6f, 1, 0}, 45);
+    scene->exposure = 1.0f;
+    return scene;
+}
+
+/// The second room has no opening at all: its walls, floor and ceiling are one closed surface.
+Result<Scene> makeDarkRoom(const BuiltinParams& params) {
+    auto scene = makeRooms(params, "dark-room", false);
+    if (!scene) return scene;
+    addCamera(*scene, "dark", {4.5f, 1.6f, 1.9f}, {0, 1.1f, -0.1f}, 68);
+    addCamera(*scene, "outside", {-6.5f, 4.2f, 10.5f}, {-0.6f, 1, 0}, 45);
+    scene->exposure = 1.0f;
+    return scene;
+}
+
+}  // namespace probegi::builtin
