@@ -1,0 +1,170 @@
+#include "cpu/probe_blend.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "cpu/probe_query.h"
+#include "kernels/octahedral_texel.h"
+#include "kernels/probe_blend.h"
+#include "kernels/ray_set.h"
+#include "kernels/storage.h"
+
+namespace probegi {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+struct Setup {
+    explicit Setup(BackfaceRule rule = BackfaceRule::zeroSample) : desc(), layout(desc), storage(layout) {
+        desc.grid = {{0, 0, 0}, {1, 1.5f, 2}, {5, 3, 4}};
+        desc.raysPerProbe = 100;
+        desc.backfaceRule = rule;
+        layout = FieldLayout(desc);
+        storage = FieldStorage(layout);
+        for (std::uint32_t i = 0; i < 100; ++i)
+            directions.push_back(kernels::frameRotation(1, 0) * kernels::sphericalFibonacci(i, 100));
+        std::uint32_t state = 9;
+        for (std::size_t i = 0; i < layout.probes * layout.rays; ++i) {
+            RayDatum d{glm::vec3(0), 3.0f * kernels::nextRandom(state)};
+            for (int c = 0; c < 3; ++c) d.radiance[c] = std::exp(4 * kernels::nextRandom(state) - 2);
+            if (i % 7 == 0) d.distance = -d.distance;
+            data.push_back(d);
+        }
+    }
+
+    void blend(int threads = 2, BlendFrame frame = {{0, 0}, false, 5}) {
+        const Context context = *Context::create({.threads = threads});
+        BlendWeights weights;
+        makeBlendWeights(context, desc, layout, directions, weights);
+        blendProbes(context, desc, layout, weights, data, frame, storage);
+    }
+
+    float stored(std::size_t probe, std::size_t texel, int channel) const {
+        return kernels::unpackHalf(storage.irradiance[3 * (probe * layout.irradianceTexels + texel) + channel]);
+    }
+
+    FieldDesc desc;
+    FieldLayout layout;
+    FieldStorage storage;
+    std::vector<glm::vec3> directions;
+    std::vector<RayDatum> data;
+};
+
+// Eq. 1 as printed, one texel at a time: the oracle for the matrix product.
+glm::dvec3 directMean(const Setup& s, std::size_t probe, int texel) {
+    const glm::vec3 n = kernels::octTexelDirection(texel % 8, texel / 8, 8);
+    glm::dvec3 sum(0.0);
+    double weights = 0;
+    for (std::size_t ray = 0; ray < s.layout.rays; ++ray) {
+        const RayDatum& d = s.data[probe * s.layout.rays + ray];
+        const bool backface = d.distance < 0;
+        if (backface && s.desc.backfaceRule == BackfaceRule::excluded) continue;
+        const double w = std::max(0.0, double(glm::dot(n, s.directions[ray])));
+        if (!backface) sum += w * glm::dvec3(d.radiance);
+        weights += w;
+    }
+    return sum / weights;
+}
+
+glm::dvec2 directMoments(const Setup& s, std::size_t probe, int texel) {
+    const glm::vec3 n = kernels::octTexelDirection(texel % 16, texel / 16, 16);
+    glm::dvec2 sum(0.0);
+    double weights = 0;
+    for (std::size_t ray = 0; ray < s.layout.rays; ++ray) {
+        const double w = std::pow(std::max(0.0, double(glm::dot(n, s.directions[ray]))), s.desc.visibilityExponent);
+        const float t = s.data[probe * s.layout.rays + ray].distance;
+        const double d = std::min(t < 0 ? -0.2 * t : double(t), double(s.layout.maxDistance)) / s.layout.maxDistance;
+        sum += w * glm::dvec2(d, d * d);
+        weights += w;
+    }
+    return sum / weights;
+}
+
+class BlendRules : public testing::TestWithParam<BackfaceRule> {};
+
+TEST_P(BlendRules, matrixProductEqualsTheDirectSum) {
+    Setup s(GetParam());
+    s.blend();
+    for (std::size_t probe = 0; probe < s.layout.probes; ++probe) {
+        for (int texel = 0; texel < 64; ++texel) {
+            const glm::dvec3 mean = directMean(s, probe, texel);
+            for (int c = 0; c < 3; ++c) {
+                const double stored = s.stored(probe, texel, c);
+                // One step of a half float: 2^-10.
+                EXPECT_NEAR(stored / std::pow(mean[c], 0.2), 1.0, 1.0 / 1024 + 1e-5);
+            }
+        }
+        for (int texel = 0; texel < 256; ++texel) {
+            const glm::dvec2 moments = directMoments(s, probe, texel);
+            const std::uint32_t packed = s.storage.visibility[probe * 256 + texel];
+            EXPECT_NEAR(kernels::unpackUnorm16(packed & 0xffff), moments.x, 1.0 / 65535 + 2e-6);
+            EXPECT_NEAR(kernels::unpackUnorm16(packed >> 16), moments.y, 1.0 / 65535 + 2e-6);
+        }
+    }
+}
+INSTANTIATE_TEST_SUITE_P(Blend, BlendRules, testing::Values(BackfaceRule::zeroSample, BackfaceRule::excluded));
+
+TEST(Blend, isTheSameForAnyNumberOfThreads) {
+    Setup one, three;
+    one.blend(1);
+    three.blend(3);
+    EXPECT_EQ(one.storage.irradiance, three.storage.irradiance);
+    EXPECT_EQ(one.storage.visibility, three.storage.visibility);
+}
+
+TEST(Blend, badRadianceAndDistanceNeverEnterTheAtlas) {
+    Setup good, bad;
+    for (std::size_t i = 0; i < good.data.size(); i += 11) {
+        good.data[i] = {glm::vec3(0), 100.0f};
+        const float poison[] = {kNan, kInfinity, -kInfinity, -1.0f};
+        bad.data[i] = {glm::vec3(poison[i % 4]), i % 3 ? kNan : kInfinity};
+    }
+    good.blend();
+    bad.blend();
+    EXPECT_EQ(good.storage.irradiance, bad.storage.irradiance);
+    EXPECT_EQ(good.storage.visibility, bad.storage.visibility);
+}
+
+TEST(Blend, allRaysOnBackfacesAreDarkUnderBothRules) {
+    for (const BackfaceRule rule : {BackfaceRule::zeroSample, BackfaceRule::excluded}) {
+        Setup s(rule);
+        for (RayDatum& d : s.data) d = {glm::vec3(5.0f), -0.5f};
+        s.blend();
+        for (const std::uint16_t half : s.storage.irradiance) ASSERT_EQ(half, 0);
+    }
+}
+
+// Closed form: light from one narrow direction w reaches texel n with max(0, n.w) / sum, so that ratios of texels are
+// ratios of cosines.
+TEST(Blend, oneBrightDirectionGivesAClampedCosine) {
+    Setup s;
+    const std::size_t bright = 42;
+    for (std::size_t i = 0; i < s.data.size(); ++i)
+        s.data[i] = {glm::vec3(i % s.layout.rays == bright ? 50.0f : 0.0f), 1.0f};
+    s.blend();
+    for (int texel = 0; texel < 64; ++texel) {
+        const glm::vec3 n = kernels::octTexelDirection(texel % 8, texel / 8, 8);
+        const float cosine = std::max(0.0f, glm::dot(n, s.directions[bright]));
+        // The weights of a uniform set sum to N / 4.
+        const float expected = 50.0f * cosine / (float(s.layout.rays) / 4.0f);
+        EXPECT_NEAR(kernels::decodeIrradiance(s.stored(3, texel, 0)), expected, 0.02f * expected + 1e-5f);
+    }
+}
+
+TEST(Blend, hysteresisKeepsItsShareOfTheOldValue) {
+    Setup s;
+    s.desc.significantChange = s.desc.newDistribution = 0;
+    for (RayDatum& d : s.data) d = {glm::vec3(1.0f), 1.0f};
+    s.blend();
+    for (RayDatum& d : s.data) d = {glm::vec3(32.0f), 2.0f};  // encoded: 1 and 2
+    s.blend(2, {{0.75f, 0.5f}, false, 6});
+    EXPECT_NEAR(s.stored(7, 20, 0), 0.75f * 1 + 0.25f * 2, 2e-3f);
+    const float mean = kernels::unpackUnorm16(s.storage.visibility[5 * 256 + 9] & 0xffff) * s.layout.maxDistance;
+    EXPECT_NEAR(mean, 1.5f, 1e-3f);
+}
+
+}  // namespace
+}  // namespace probegi

@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "kernels/octahedral_texel.h"
+#include "kernels/ray_set.h"
+
+namespace probegi::kernels {
+namespace {
+
+vec3 randomDirection(uint& state) {
+    const float z = 2 * nextRandom(state) - 1, phi = 2 * kPi * nextRandom(state);
+    const float r = std::sqrt(std::max(0.0f, 1 - z * z));
+    return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+TEST(Octahedral, decodeUndoesEncode) {
+    uint state = 1;
+    for (int i = 0; i < 10000; ++i) {
+        const vec3 d = randomDirection(state);
+        EXPECT_LT(glm::length(octDecode(octEncode(d)) - d), 2e-6f);
+    }
+}
+
+TEST(Octahedral, encodeStaysInTheSquareAlsoOnTheAxes) {
+    for (int axis = 0; axis < 3; ++axis)
+        for (float sign : {-1.0f, 1.0f}) {
+            vec3 d(0.0f);
+            d[axis] = sign;
+            const vec2 p = octEncode(d);
+            EXPECT_LE(std::max(std::abs(p.x), std::abs(p.y)), 1.0f);
+            EXPECT_LT(glm::length(octDecode(p) - d), 1e-6f);
+        }
+}
+
+// The map is continuous across the square's edges: a border texel, extrapolated beyond the edge, has the direction of
+// the interior texel that it repeats.
+TEST(Octahedral, borderTexelsRepeatTheirNeighboursOnTheSphere) {
+    const int size = 8;
+    const float texelAngle = 2.0f / size;
+    for (int i = 0; i < size; ++i) {
+        for (const ivec2 border : {ivec2(-1, i), ivec2(size, i), ivec2(i, -1), ivec2(i, size)}) {
+            const ivec2 inside(std::clamp(border.x, 0, size - 1), std::clamp(border.y, 0, size - 1));
+            const ivec2 wrapped = octWrapTexel(border.x, border.y, size);
+            ASSERT_TRUE(wrapped.x >= 0 && wrapped.x < size && wrapped.y >= 0 && wrapped.y < size);
+            const vec3 a = octTexelDirection(inside.x, inside.y, size);
+            const vec3 b = octTexelDirection(wrapped.x, wrapped.y, size);
+            // Neighbours across the edge are as close as neighbours within the map.
+            EXPECT_LT(glm::length(a - b), 2.0f * texelAngle) << border.x << ' ' << border.y;
+        }
+    }
+    EXPECT_EQ(octWrapTexel(-1, -1, size), ivec2(size - 1, size - 1));
+    EXPECT_EQ(octWrapTexel(size, -1, size), ivec2(0, size - 1));
+    EXPECT_EQ(octWrapTexel(3, 5, size), ivec2(3, 5));
+}
+
+TEST(Octahedral, texelPositionCountsFromTexelCentres) {
+    const vec3 d = octTexelDirection(3, 6, 8);
+    const vec2 p = octTexelPosition(octEncode(d), 8);
+    EXPECT_NEAR(p.x, 3.0f, 1e-5f);
+    EXPECT_NEAR(p.y, 6.0f, 1e-5f);
+}
+
+TEST(RaySet, fibonacciIntegratesLowOrderPolynomialsOverTheSphere) {
+    const uint n = 144;
+    vec3 mean(0.0f), square(0.0f);
+    for (uint i = 0; i < n; ++i) {
+        const vec3 d = sphericalFibonacci(i, n);
+        EXPECT_NEAR(glm::length(d), 1.0f, 1e-6f);
+        mean += d / float(n);
+        square += d * d / float(n);
+    }
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(mean[c], 0.0f, 2e-3f);
+        EXPECT_NEAR(square[c], 1.0f / 3.0f, 2e-3f);
+    }
+}
+
+TEST(RaySet, rotationsAreRotationsAndUniform) {
+    vec3 meanOfZ(0.0f);
+    const int frames = 4000;
+    for (int frame = 0; frame < frames; ++frame) {
+        const mat3 r = frameRotation(7, uint(frame));
+        EXPECT_NEAR(glm::dot(r[0], r[1]), 0.0f, 1e-5f);
+        EXPECT_NEAR(glm::dot(glm::cross(r[0], r[1]), r[2]), 1.0f, 1e-5f);
+        meanOfZ += r * vec3(0, 0, 1) / float(frames);
+    }
+    // The mean of uniform directions has a standard error of 1 / sqrt(3 n) per axis.
+    EXPECT_LT(glm::length(meanOfZ), 4.0f / std::sqrt(float(frames)));
+}
+
+TEST(RaySet, differentSeedsAndFramesDiffer) {
+    EXPECT_NE(frameRotation(1, 0)[0], frameRotation(1, 1)[0]);
+    EXPECT_NE(frameRotation(1, 0)[0], frameRotation(2, 0)[0]);
+    EXPECT_EQ(frameRotation(1, 5)[0], frameRotation(1, 5)[0]);
+}
+
+}  // namespace
+}  // namespace probegi::kernels
