@@ -1,0 +1,88 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/refused.h"
+#include "io/tinygltf.h"
+#include "probegi/io.h"
+
+namespace probegi::io {
+
+/// Memory that a file may make us allocate: in proportion to its own size, with room for small files. Without it a few
+/// kilobytes that name the same vertices or the same picture a thousand times fill any machine.
+class Budget {
+public:
+    explicit Budget(std::size_t fileBytes) : m_limit((std::uint64_t(256) << 20) + 64 * std::uint64_t(fileBytes)) {}
+
+    void charge(std::uint64_t bytes) {
+        m_used += bytes;
+        if (m_used > m_limit) {
+            refuse(ErrorCode::outOfMemory, "unpacks to over {} MB, out of proportion to its size", m_limit >> 20);
+        }
+    }
+
+private:
+    std::uint64_t m_limit;
+    std::uint64_t m_used = 0;
+};
+
+/// One import under way: what is read, and what has been made of it. Each importX() below fills its part of the scene.
+struct Import {
+    const tinygltf::Model& model;
+    LoadedScene& out;
+    Budget geometry;
+    Budget pixels;
+    std::vector<int> lights;   ///< model light -> scene light, -1: dropped
+    std::vector<int> cameras;  ///< model camera -> scene camera, -1: dropped
+    std::vector<int> nodes;    ///< model node -> scene node, -1: not in the scene that is shown
+    std::vector<int> meshes;   ///< model mesh -> scene mesh, -1: not used by those nodes
+
+    Scene& scene() { return out.scene; }
+
+    /// Says a thing once, however often it occurs, and stops before nobody reads on.
+    void warn(std::string sentence) {
+        constexpr std::size_t kMost = 50;
+        auto& all = out.warnings;
+        if (all.size() > kMost || std::find(all.begin(), all.end(), sentence) != all.end()) return;
+        all.push_back(all.size() == kMost ? "there are more warnings" : std::move(sentence));
+    }
+};
+
+void importMaterials(Import& import);
+void importLights(Import& import);
+void importCameras(Import& import);
+void importNodes(Import& import);       ///< needs lights and cameras; numbers the meshes that are used
+void importMeshes(Import& import);      ///< needs nodes and materials
+void importAnimations(Import& import);  ///< needs nodes
+
+/// "mesh 3 'column'".
+inline std::string title(std::string_view kind, std::size_t index, std::string_view name) {
+    return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, name);
+}
+
+/// An index of the file that must exist. Returns it as an offset.
+inline std::size_t checkedIndex(std::string_view user, std::string_view kind, int index, std::size_t count) {
+    if (index < 0 || std::size_t(index) >= count) {
+        refuseMalformed("{} uses {} {}, but there are {}", user, kind, index, count);
+    }
+    return std::size_t(index);
+}
+
+/// A number of the file as a float that is finite.
+float finiteFloat(std::string_view user, std::string_view member, double value);
+
+/// An extension of an object, or null.
+const tinygltf::Value* findExtension(const tinygltf::ExtensionMap& extensions, const char* name);
+
+/// A number in an extension; `fallback` where it is missing.
+double numberOf(const tinygltf::Value& object, const char* member, double fallback);
+
+/// Numbers of an array in an extension; fallback where it is missing or shorter.
+double numberOf(const tinygltf::Value& object, const char* member, int element, double fallback);
+
+}  // namespace probegi::io

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "probegi/image.h"
+#include "probegi/scene.h"
+
+/// Picture files in memory. Every function throws Refused for bytes it cannot use.
+namespace probegi::io {
+
+enum class ImageFormat : std::uint8_t { exr, hdr, png, jpeg };
+
+/// Linear pixels of a picture file; what the 8 and 16 bit formats store is taken as sRGB.
+HdrImage decodeImage(std::span<const std::uint8_t> bytes, ImageFormat format);
+
+/// A PNG or JPEG as a scene's texture, told apart by its first bytes.
+TextureImage decodeTexture(std::span<const std::uint8_t> bytes);
+
+/// Width x height of decodeTexture's result, without decoding.
+std::uint64_t texturePixels(std::span<const std::uint8_t> bytes);
+
+HdrImage decodeExr(std::span<const std::uint8_t> bytes);
+
+/// 32-bit float R, G, B, ZIP-compressed.
+std::vector<std::uint8_t> encodeExr(const HdrImage& image);
+
+/// 8-bit sRGB through the tone map.
+std::vector<std::uint8_t> encodePng(const HdrImage& image, const ToneMap& toneMap);
+
+/// Refuses a size that is beyond the documented 2^28 pixels, or that so few bytes cannot honestly hold: the densest
+/// compression (deflate of 1-bit pixels) packs about 8,000 pixels into a byte, so a file that claims more is a trap.
+void checkImageSize(std::int64_t width, std::int64_t height, std::size_t fileBytes);
+
+}  // namespace probegi::io

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "probegi/result.h"
+
+namespace probegi::io {
+
+/// How the readers leave when a file cannot be used. Thrown and caught inside this layer only: guarded() is the seam.
+struct Refused {
+    Error error;
+};
+
+template <class... Args>
+[[noreturn]] void refuse(ErrorCode code, fmt::format_string<Args...> format, Args&&... args) {
+    throw Refused{Error{code, fmt::format(format, std::forward<Args>(args)...)}};
+}
+
+template <class... Args>
+[[noreturn]] void refuseMalformed(fmt::format_string<Args...> format, Args&&... args) {
+    throw Refused{Error{ErrorCode::malformed, fmt::format(format, std::forward<Args>(args)...)}};
+}
+
+/// Runs body() and turns everything it throws, libraries' exceptions included, into an Error that begins with `name`.
+template <class Body>
+auto guarded(std::string_view name, const Body& body) -> Result<std::invoke_result_t<Body>> {
+    const auto sentence = [&](std::string_view what) { return fmt::format("{}: {}", name, what); };
+    try {
+        if constexpr (std::is_void_v<std::invoke_result_t<Body>>) {
+            body();
+            return {};
+        } else {
+            return body();
+        }
+    } catch (const Refused& refused) {
+        return fail(refused.error.code, sentence(refused.error.message));
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::outOfMemory, sentence("needs more memory than there is"));
+    } catch (const std::exception& e) {
+        return fail(ErrorCode::malformed, sentence(fmt::format("is damaged ({})", e.what())));
+    }
+}
+
+}  // namespace probegi::io
