@@ -133,6 +133,7 @@ Surface shade(const SurfaceMesh& mesh, const SurfaceTriangle& triangle, const Su
     surface.geometricNormal = away ? -geometric : geometric;
     surface.shadingNormal = bendTowards(away ? -normal : normal, toOrigin);
     surface.backface = away && !material.doubleSided;
+    surface.material = std::int32_t(triangle.material);
     shadeMaterial(surface, mesh, triangle, material, t.barycentric);
     return surface;
 }
