@@ -73,7 +73,7 @@ bool lightIsRight(const SphereWorld& world, const Field& field) {
 int main() {
     const SphereWorld world;
     FieldDesc desc;
-    desc.grid = {.origin = {-4.5f, -0.4f, -4.5f}, .spacing = glm::vec3(0.75f), .counts = {13, 5, 13}};
+    desc.grid = {.origin = {-5.25f, 0.15f, -5.25f}, .spacing = glm::vec3(0.75f), .counts = {15, 5, 15}};
     desc.hysteresis = 0.9f;
     desc.visibilityHysteresis = 0.9f;
     const auto context = Context::create();
