@@ -23,10 +23,10 @@ struct ContextDesc {
     /// Worker threads. 0: all hardware threads. Range 0..1024. Results never depend on it.
     int threads = 0;
     /// Receives log lines; empty: silence. May be called from any thread, never from two at once.
-    std::function<void(LogLevel, std::string_view)> log;
+    std::function<void(LogLevel, std::string_view)> log{};
     /// Receives progress about ten times a second at most, and once with fraction 1 at the end of each stage.
     /// Return false to cancel: the running call then returns ErrorCode::cancelled. Empty: no progress.
-    std::function<bool(const ProgressReport&)> progress;
+    std::function<bool(const ProgressReport&)> progress{};
 };
 
 /// Threads, log and progress: what every pass needs and no pass owns. Cheap to copy (shared handle);

@@ -28,7 +28,7 @@ enum class BackfaceRule : std::uint8_t {
 
 /// How a Field is made. Distances are fractions of probe spacing: nothing here depends on the scene's scale.
 struct FieldDesc {
-    GridDesc grid;
+    GridDesc grid{};
     int raysPerProbe = 144;     ///< update rays a probe and frame, 8..4096
     int irradianceTexels = 8;   ///< side of the octahedral irradiance map, 4..32, even
     int visibilityTexels = 16;  ///< side of the octahedral visibility map, 4..64, even

@@ -4,6 +4,7 @@
 #include <tbb/task_arena.h>
 #include <algorithm>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "probegi/context.h"
@@ -24,6 +25,7 @@ struct Context::Impl {
 
     ContextDesc desc;
     int threads;
+    std::optional<tbb::global_control> oversubscription;
     tbb::global_control parallelism;  // lets an arena have more threads than the machine; TBB would refuse them aloud
     tbb::task_arena arena;
     std::mutex logMutex;

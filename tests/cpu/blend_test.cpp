@@ -17,8 +17,8 @@ namespace {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-struct Setup {
-    explicit Setup(BackfaceRule rule = BackfaceRule::zeroSample) : desc(), layout(desc), storage(layout) {
+struct BlendInput {
+    explicit BlendInput(BackfaceRule rule = BackfaceRule::zeroSample) : desc(), layout(desc), storage(layout) {
         desc.grid = {{0, 0, 0}, {1, 1.5f, 2}, {5, 3, 4}};
         desc.raysPerProbe = 100;
         desc.backfaceRule = rule;
@@ -54,7 +54,7 @@ struct Setup {
 };
 
 // Eq. 1 as printed, one texel at a time: the oracle for the matrix product.
-glm::dvec3 directMean(const Setup& s, std::size_t probe, int texel) {
+glm::dvec3 directMean(const BlendInput& s, std::size_t probe, int texel) {
     const glm::vec3 n = kernels::octTexelDirection(texel % 8, texel / 8, 8);
     glm::dvec3 sum(0.0);
     double weights = 0;
@@ -69,7 +69,7 @@ glm::dvec3 directMean(const Setup& s, std::size_t probe, int texel) {
     return sum / weights;
 }
 
-glm::dvec2 directMoments(const Setup& s, std::size_t probe, int texel) {
+glm::dvec2 directMoments(const BlendInput& s, std::size_t probe, int texel) {
     const glm::vec3 n = kernels::octTexelDirection(texel % 16, texel / 16, 16);
     glm::dvec2 sum(0.0);
     double weights = 0;
@@ -86,7 +86,7 @@ glm::dvec2 directMoments(const Setup& s, std::size_t probe, int texel) {
 class BlendRules : public testing::TestWithParam<BackfaceRule> {};
 
 TEST_P(BlendRules, matrixProductEqualsTheDirectSum) {
-    Setup s(GetParam());
+    BlendInput s(GetParam());
     s.blend();
     for (std::size_t probe = 0; probe < s.layout.probes; ++probe) {
         for (int texel = 0; texel < 64; ++texel) {
@@ -108,7 +108,7 @@ TEST_P(BlendRules, matrixProductEqualsTheDirectSum) {
 INSTANTIATE_TEST_SUITE_P(Blend, BlendRules, testing::Values(BackfaceRule::zeroSample, BackfaceRule::excluded));
 
 TEST(Blend, isTheSameForAnyNumberOfThreads) {
-    Setup one, three;
+    BlendInput one, three;
     one.blend(1);
     three.blend(3);
     EXPECT_EQ(one.storage.irradiance, three.storage.irradiance);
@@ -116,7 +116,7 @@ TEST(Blend, isTheSameForAnyNumberOfThreads) {
 }
 
 TEST(Blend, badRadianceAndDistanceNeverEnterTheAtlas) {
-    Setup good, bad;
+    BlendInput good, bad;
     for (std::size_t i = 0; i < good.data.size(); i += 11) {
         good.data[i] = {glm::vec3(0), 100.0f};
         const float poison[] = {kNan, kInfinity, -kInfinity, -1.0f};
@@ -130,7 +130,7 @@ TEST(Blend, badRadianceAndDistanceNeverEnterTheAtlas) {
 
 TEST(Blend, allRaysOnBackfacesAreDarkUnderBothRules) {
     for (const BackfaceRule rule : {BackfaceRule::zeroSample, BackfaceRule::excluded}) {
-        Setup s(rule);
+        BlendInput s(rule);
         for (RayDatum& d : s.data) d = {glm::vec3(5.0f), -0.5f};
         s.blend();
         for (const std::uint16_t half : s.storage.irradiance) ASSERT_EQ(half, 0);
@@ -140,7 +140,7 @@ TEST(Blend, allRaysOnBackfacesAreDarkUnderBothRules) {
 // Closed form: light from one narrow direction w reaches texel n with max(0, n.w) / sum, so that ratios of texels are
 // ratios of cosines.
 TEST(Blend, oneBrightDirectionGivesAClampedCosine) {
-    Setup s;
+    BlendInput s;
     const std::size_t bright = 42;
     for (std::size_t i = 0; i < s.data.size(); ++i)
         s.data[i] = {glm::vec3(i % s.layout.rays == bright ? 50.0f : 0.0f), 1.0f};
@@ -155,7 +155,7 @@ TEST(Blend, oneBrightDirectionGivesAClampedCosine) {
 }
 
 TEST(Blend, hysteresisKeepsItsShareOfTheOldValue) {
-    Setup s;
+    BlendInput s;
     s.desc.significantChange = s.desc.newDistribution = 0;
     for (RayDatum& d : s.data) d = {glm::vec3(1.0f), 1.0f};
     s.blend();

