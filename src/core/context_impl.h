@@ -4,7 +4,6 @@
 #include <tbb/task_arena.h>
 #include <algorithm>
 #include <mutex>
-#include <optional>
 #include <thread>
 
 #include "probegi/context.h"
@@ -25,7 +24,6 @@ struct Context::Impl {
 
     ContextDesc desc;
     int threads;
-    std::optional<tbb::global_control> oversubscription;
     tbb::global_control parallelism;  // lets an arena have more threads than the machine; TBB would refuse them aloud
     tbb::task_arena arena;
     std::mutex logMutex;
