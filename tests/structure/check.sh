@@ -24,7 +24,7 @@ declare -A below=(
     [scene]="core kernels"
     [io]="scene core kernels"
     [field]="scene core kernels"
-    [compare]="scene core kernels"
+    [compare]="io scene core kernels"
     [cpu]="field scene core kernels"
     [reference]="cpu field scene core kernels"
     [render]="cpu field scene core kernels"
@@ -75,7 +75,7 @@ check_examples() {
     local file header
     while IFS=: read -r file header; do
         complain "$file includes $header: examples use the public API only"
-    done < <(grep -HoP '^\s*#\s*include\s+"\K(?!probegi/)[^"]+' /dev/null examples/**/*.{h,cpp} || true)
+    done < <(grep -HoP '^\s*#\s*include\s+"\K(?!probegi/)[^"/]*/[^"]+' /dev/null examples/**/*.{h,cpp} || true)
 }
 
 check_sizes() {
