@@ -27,6 +27,11 @@ const CLI::App& chosenCommand(const CLI::App& app) {
     return chosen.empty() ? app : *chosen.front();
 }
 
+std::string helpOf(const CLI::App& app) {
+    const CLI::App& command = chosenCommand(app);
+    return &command == &app ? app.help() : command.help(app.get_name());
+}
+
 int usageError(const CLI::App& app, const CLI::ParseError& error) {
     const CLI::App& command = chosenCommand(app);
     const std::string help = &command == &app ? "probegi --help" : "probegi " + command.get_name() + " --help";
@@ -49,7 +54,7 @@ int run(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        fmt::print("{}", chosenCommand(app).help());
+        fmt::print("{}", helpOf(app));
         return 0;
     } catch (const CLI::CallForVersion& version) {
         fmt::print("{}\n", version.what());
