@@ -46,7 +46,9 @@ struct Span {
     float fraction;
 };
 
-Span neighbours(float u, std::int32_t size, Wrap wrap, bool nearest) {
+// Inlined by force: returned in registers, the two indices are packed through memory, and reading them back as one word
+// stalls longer than all the rest of the look-up takes.
+[[gnu::always_inline]] inline Span neighbours(float u, std::int32_t size, Wrap wrap, bool nearest) {
     const float x = fold(u, wrap) * float(size);
     if (nearest) {
         const std::int32_t i = std::min(std::int32_t(x), size - 1);
