@@ -54,8 +54,8 @@ figcaption strong { color: var(--ink); }
 select { font: inherit; color: var(--ink); background: var(--page); border: 1px solid var(--line); border-radius: 7px; padding: 0.25rem 0.4rem; max-width: 100%; }
 .legend { display: flex; align-items: center; gap: 0.7rem; max-width: 420px; margin: 0 0 0.9rem; font-size: 0.85rem; color: var(--quiet); }
 .legend span.ramp { flex: 1; height: 12px; border-radius: 6px; border: 1px solid var(--line); }
-.tables { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 18px; margin-top: 1.6rem; align-items: start; }
-.sheet { background: var(--card); border: 1px solid var(--line); border-radius: 10px; padding: 0.3rem 0.9rem 0.7rem; overflow-x: auto; }
+.tables { columns: 420px; column-gap: 18px; margin-top: 1.6rem; }
+.sheet { break-inside: avoid; margin-bottom: 18px; background: var(--card); border: 1px solid var(--line); border-radius: 10px; padding: 0.3rem 0.9rem 0.7rem; overflow-x: auto; }
 .sheet p { font-size: 0.85rem; color: var(--quiet); margin: 0.5rem 0 0.2rem; }
 table { border-collapse: collapse; width: 100%; font-size: 0.92rem; font-variant-numeric: tabular-nums; }
 caption { text-align: left; font-weight: 650; padding: 0.6rem 0 0.4rem; }

@@ -1,0 +1,91 @@
+#include "leak.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "probegi/builtin_scenes.h"
+#include "probegi/field.h"
+
+namespace probegi::accuracy {
+
+namespace {
+
+// The rooms of builtin:dark-room: each 5 x 2.8 x 5 m, left and right of a wall that is centred on x = 0.
+constexpr glm::vec3 kRoom(5.0f, 2.8f, 5.0f);
+constexpr int kPointsPerSide = 16;  ///< on each wall
+constexpr std::array<float, 4> kShifts{0.0f, 0.25f, 0.5f, 0.75f};
+constexpr int kUpdates = 48;
+
+/// Points spread over the inner faces of a box, looking inwards.
+std::vector<FieldQuery> wallPoints(glm::vec3 lower, glm::vec3 upper) {
+    std::vector<FieldQuery> points;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const bool far : {false, true})
+            for (int i = 0; i < kPointsPerSide * kPointsPerSide; ++i) {
+                glm::vec3 share;
+                share[axis] = far ? 1.0f : 0.0f;
+                share[(axis + 1) % 3] = (float(i % kPointsPerSide) + 0.5f) / kPointsPerSide;
+                share[(axis + 2) % 3] = (float(i / kPointsPerSide) + 0.5f) / kPointsPerSide;
+                glm::vec3 normal(0);
+                normal[axis] = far ? -1.0f : 1.0f;
+                points.push_back({lower + share * (upper - lower), normal, normal});
+            }
+    return points;
+}
+
+double meanIrradiance(const Field& field, const std::vector<FieldQuery>& points) {
+    std::vector<glm::vec3> irradiance(points.size());
+    field.irradiance(points, irradiance);
+    double sum = 0;
+    for (const glm::vec3& e : irradiance) sum += (double(e.x) + e.y + e.z) / 3;
+    return sum / double(points.size());
+}
+
+/// One cell beyond the building on every side, 1 m apart, shifted by a part of a cell along every axis.
+GridDesc shiftedGrid(float shift) {
+    return {glm::vec3(-7, -1, -4) + glm::vec3(shift - 0.5f), glm::vec3(1), {16, 7, 10}};
+}
+
+Result<double> leakShare(const Context& context, const Tracer& tracer, const Lighting& lighting, float wallThickness,
+                         float shift, LeakGuard guard) {
+    FieldDesc desc;
+    desc.grid = shiftedGrid(shift);
+    desc.guard = guard;
+    auto field = Field::create(context, desc);
+    if (!field) return tl::unexpected(field.error());
+    if (const auto done = field->converge(tracer, lighting, 1e-6f, kUpdates); !done)
+        return tl::unexpected(done.error());
+    const float wall = 0.5f * wallThickness;
+    const glm::vec3 sealed(wall, 0, -0.5f * kRoom.z);
+    const glm::vec3 lit(-wall - kRoom.x, 0, -0.5f * kRoom.z);
+    return meanIrradiance(*field, wallPoints(sealed, sealed + kRoom)) /
+           meanIrradiance(*field, wallPoints(lit, lit + kRoom));
+}
+
+}  // namespace
+
+Result<LeakResult> measureLeak(const Context& context, float wallThickness) {
+    BuiltinParams params;
+    params.wallThickness = wallThickness;
+    const auto scene = makeBuiltinScene("dark-room", params);
+    if (!scene) return tl::unexpected(scene.error());
+    const ScenePose pose = poseAt(*scene);
+    const auto tracer = makeEmbreeTracer(context, *scene, pose);
+    if (!tracer) return tl::unexpected(tracer.error());
+    const Lighting lighting{pose.lights, scene->sky};
+
+    LeakResult result;
+    result.wallThickness = wallThickness;
+    for (const float shift : kShifts)
+        for (const auto& [guard, share] :
+             {std::pair(LeakGuard::none, &result.leaky), std::pair(LeakGuard::moments, &result.moments)}) {
+            const auto measured = leakShare(context, **tracer, lighting, wallThickness, shift, guard);
+            if (!measured) return tl::unexpected(measured.error());
+            share->mean += *measured / double(kShifts.size());
+            share->worst = std::max(share->worst, *measured);
+        }
+    return result;
+}
+
+}  // namespace probegi::accuracy

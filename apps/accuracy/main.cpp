@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+
+#include "markdown.h"
+#include "parse.h"
+#include "terminal.h"
+
+namespace {
+
+using namespace probegi;
+using namespace probegi::accuracy;
+
+struct Options {
+    std::string page;
+    std::string scenesFolder = "../shared/scenes";
+    int threads = 0;
+    int samplesPerPixel = 256;
+};
+
+/// A scene of the tables, as one would give it to `probegi render`.
+struct Case {
+    std::string name;
+    tool::SceneOptions options;
+};
+
+std::vector<Case> cases(const Options& options) {
+    std::vector<Case> list;
+    const auto add = [&](const char* name, const std::string& scene, const char* camera, const char* sky) {
+        Case entry{name, {}};
+        entry.options.scene = scene;
+        entry.options.camera = camera;
+        entry.options.sky = sky;
+        list.push_back(std::move(entry));
+    };
+    add("cornell", "builtin:cornell", "", "");
+    add("two-rooms", "builtin:two-rooms", "second", "");
+    add("dark-room", "builtin:dark-room", "lit", "");
+    add("Sponza, sun and sky", options.scenesFolder + "/sponza/sponza.glb", "nave", "0.6,0.8,1.2");
+    return list;
+}
+
+tool::ReportSettings settingsOf(const Options& options) {
+    tool::ReportSettings settings;
+    settings.width = 480;
+    settings.height = 270;
+    settings.diffuseOnly = true;  // what the field promises; gloss is another matter
+    settings.seconds = 0;
+    settings.samplesPerPixel = options.samplesPerPixel;
+    settings.ratioProbes = 512;
+    return settings;
+}
+
+Result<void> measure(const Options& options) {
+    const auto context = tool::makeContext(options.threads);
+    if (!context) return tl::unexpected(context.error());
+    std::vector<MeasuredScene> scenes;
+    for (const Case& entry : cases(options)) {
+        const auto setup = tool::loadSetup(entry.options);
+        if (!setup) return tl::unexpected(setup.error());
+        auto rendered = tool::renderForReport(*context, *setup, settingsOf(options));
+        if (!rendered) return tl::unexpected(rendered.error());
+        scenes.push_back({entry.name, std::move(*rendered)});
+    }
+    std::vector<LeakResult> leaks;
+    for (const float thickness : {0.02f, 0.05f, 0.10f, 0.20f, 0.30f}) {
+        const auto leak = measureLeak(*context, thickness);
+        if (!leak) return tl::unexpected(leak.error());
+        leaks.push_back(*leak);
+    }
+    const std::string tables = accuracyTables(scenes, leaks, context->threads());
+    if (!options.page.empty()) return replaceBetweenMarkers(options.page, tables);
+    fmt::print("{}", tables);
+    return {};
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("Measures the tables of docs/accuracy.md", "probegi_accuracy");
+    Options options;
+    if (const char* folder = std::getenv("PROBEGI_SCENES"); folder && *folder) options.scenesFolder = folder;
+    app.add_option("-o,--output", options.page, "page whose measured part is replaced (default: print)")
+        ->type_name("FILE");
+    app.add_option("--scenes", options.scenesFolder, "folder of the real scenes (default: PROBEGI_SCENES)")
+        ->capture_default_str();
+    app.add_option("--threads", options.threads, "worker threads; 0: all")->check(tool::inRange(0, 1024));
+    app.add_option("--spp", options.samplesPerPixel, "samples a pixel of the reference")
+        ->check(tool::inRange(1, 1e6))
+        ->capture_default_str();
+    CLI11_PARSE(app, argc, argv);
+    const auto done = measure(options);
+    return done ? 0 : tool::printError(done.error());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& error) {
+        return tool::printError({ErrorCode::outOfMemory, error.what()});
+    }
+}
