@@ -7,7 +7,7 @@ build_packages=(
     g++ cmake ninja-build ccache pkg-config
     libembree-dev libtbb-dev        # ray tracing, threads
     libglm-dev libeigen3-dev libxsimd-dev  # vectors, matrix product, SIMD
-    libtinygltf-dev libdraco-dev libstb-dev libopenexr-dev nlohmann-json3-dev  # files
+    libtinygltf-dev libdraco-dev libstb-dev libturbojpeg0-dev libopenexr-dev nlohmann-json3-dev  # files
     libcli11-dev libfmt-dev libexpected-dev
 )
 test_packages=(

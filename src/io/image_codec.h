@@ -21,7 +21,15 @@ TextureImage decodeTexture(std::span<const std::uint8_t> bytes);
 /// Width x height of decodeTexture's result, without decoding.
 std::uint64_t texturePixels(std::span<const std::uint8_t> bytes);
 
+// One format each; the bytes are known to begin as that format does.
 HdrImage decodeExr(std::span<const std::uint8_t> bytes);
+HdrImage decodeHdr(std::span<const std::uint8_t> bytes);
+HdrImage decodePng(std::span<const std::uint8_t> bytes);
+HdrImage decodeJpeg(std::span<const std::uint8_t> bytes);
+TextureImage decodePngTexture(std::span<const std::uint8_t> bytes);
+TextureImage decodeJpegTexture(std::span<const std::uint8_t> bytes);
+std::uint64_t pngPixels(std::span<const std::uint8_t> bytes);
+std::uint64_t jpegPixels(std::span<const std::uint8_t> bytes);
 
 /// 32-bit float R, G, B, ZIP-compressed.
 std::vector<std::uint8_t> encodeExr(const HdrImage& image);

@@ -1,0 +1,69 @@
+#include "io/image_codec.h"
+
+#include <algorithm>
+
+#include "io/refused.h"
+
+namespace probegi::io {
+
+namespace {
+
+bool beginsWith(std::span<const std::uint8_t> bytes, std::initializer_list<std::uint8_t> magic) {
+    return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
+}
+bool isPng(std::span<const std::uint8_t> bytes) {
+    return beginsWith(bytes, {0x89, 'P', 'N', 'G'});
+}
+bool isJpeg(std::span<const std::uint8_t> bytes) {
+    return beginsWith(bytes, {0xff, 0xd8, 0xff});
+}
+
+}  // namespace
+
+HdrImage decodeImage(std::span<const std::uint8_t> bytes, ImageFormat format) {
+    if (bytes.empty()) refuseMalformed("is empty");
+    switch (format) {
+        case ImageFormat::exr:
+            return decodeExr(bytes);
+        case ImageFormat::hdr:
+            if (!beginsWith(bytes, {'#', '?'})) refuseMalformed("is not a Radiance .hdr picture");
+            return decodeHdr(bytes);
+        case ImageFormat::png:
+            if (!isPng(bytes)) refuseMalformed("is not a PNG picture");
+            return decodePng(bytes);
+        case ImageFormat::jpeg:
+            break;
+    }
+    if (!isJpeg(bytes)) refuseMalformed("is not a JPEG picture");
+    return decodeJpeg(bytes);
+}
+
+std::uint64_t texturePixels(std::span<const std::uint8_t> bytes) {
+    if (isPng(bytes)) return pngPixels(bytes);
+    if (isJpeg(bytes)) return jpegPixels(bytes);
+    refuse(ErrorCode::unsupported, "is neither PNG nor JPEG; convert it to one");
+}
+
+TextureImage decodeTexture(std::span<const std::uint8_t> bytes) {
+    if (isPng(bytes)) return decodePngTexture(bytes);
+    if (isJpeg(bytes)) return decodeJpegTexture(bytes);
+    refuse(ErrorCode::unsupported, "is neither PNG nor JPEG; convert it to one");
+}
+
+void checkImageSize(std::int64_t width, std::int64_t height, std::size_t fileBytes) {
+    constexpr std::int64_t kMaxSide = 65536;
+    constexpr std::int64_t kMaxPixels = std::int64_t(1) << 28;
+    constexpr std::int64_t kMaxPixelsPerByte = 16384;
+    if (width < 1 || height < 1) refuseMalformed("the picture's size of {} x {} is not one", width, height);
+    if (width > kMaxSide || height > kMaxSide || width * height > kMaxPixels) {
+        refuse(ErrorCode::outOfMemory,
+               "the picture has {} x {} pixels; at most {} a side and 2^28 in all are supported", width, height,
+               kMaxSide);
+    }
+    if (width * height / kMaxPixelsPerByte > std::int64_t(fileBytes)) {
+        refuseMalformed("claims {} x {} pixels in {} bytes, more than any compression allows", width, height,
+                        fileBytes);
+    }
+}
+
+}  // namespace probegi::io

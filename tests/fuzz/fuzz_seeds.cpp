@@ -1,0 +1,60 @@
+// fuzz_seeds FOLDER: writes small valid files to FOLDER/gltf and FOLDER/image for the fuzzers to start from.
+#include <filesystem>
+#include <fstream>
+
+#include "io/draco_sample.h"
+#include "io/gltf_builder.h"
+#include "io/image_codec.h"
+#include "io/stb.h"
+
+namespace {
+
+using probegi::test::Bytes;
+namespace fs = std::filesystem;
+
+void write(const fs::path& path, const Bytes& bytes) {
+    fs::create_directories(path.parent_path());
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+}
+
+void append(void* context, void* data, int size) {
+    const auto* bytes = static_cast<const std::uint8_t*>(data);
+    static_cast<Bytes*>(context)->insert(static_cast<Bytes*>(context)->end(), bytes, bytes + size);
+}
+
+Bytes settings() {
+    const std::string text =
+        "# seed\nscene.lights.0.name=Sun\nscene.lights.0.type=1\nscene.lights.0.power=2.f\n"
+        "scene.lights.0.direction=-0.9 -0.2 -0.2\nscene.cameras.0.yaw=11.8\nscene.cameras.0.fov=45\n"
+        "scene.skyColor=1 1 1\nddgi.volume.0.probeCounts=3 4 5\nddgi.volume.0.origin=0 1 0 # comment\n";
+    return {text.begin(), text.end()};
+}
+
+void writeImages(const fs::path& folder) {
+    probegi::HdrImage picture(9, 7);
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) picture.pixels[i] = glm::vec3(float(i), 0.5f, 1e-3f);
+    write(folder / "float.exr", probegi::io::encodeExr(picture));
+    write(folder / "picture.png", probegi::io::encodePng(picture, {}));
+    Bytes hdr;
+    stbi_write_hdr_to_func(append, &hdr, 9, 7, 3, &picture.pixels[0].x);
+    write(folder / "picture.hdr", hdr);
+    Bytes jpeg;
+    const Bytes grey(3 * 16 * 16, 90);
+    stbi_write_jpg_to_func(append, &jpeg, 16, 16, 3, grey.data(), 80);
+    write(folder / "picture.jpg", jpeg);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    if (count != 2) return 1;
+    const fs::path folder = arguments[1];
+    using namespace probegi::test;
+    write(folder / "gltf" / "rich.glb", richScene().glb());
+    write(folder / "gltf" / "rich.gltf", richScene().text());
+    write(folder / "gltf" / "draco.glb", dracoScene().glb());
+    write(folder / "gltf" / "settings.ini", settings());
+    writeImages(folder / "image");
+    return 0;
+}
