@@ -132,4 +132,14 @@ CLI::Validator inRange(double lower, double upper) {
         "");
 }
 
+CLI::Validator wholeNumber() {
+    return CLI::Validator(
+        [](std::string& text) {
+            std::uint64_t value = 0;
+            if (parseWhole(std::string_view(text), value)) return std::string();
+            return fmt::format("'{}' is not a whole number from 0 to 18446744073709551615", text);
+        },
+        "");
+}
+
 }  // namespace probegi::tool

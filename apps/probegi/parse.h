@@ -32,6 +32,9 @@ Result<PictureSize> parseSize(std::string_view text);  ///< "WxH", each 1..16384
 /// CLI11's own range check lets NaN through and does not say which option failed.
 CLI::Validator inRange(double lower, double upper);
 
+/// Refuses what CLI11 would wrap around: a minus sign before an unsigned number.
+CLI::Validator wholeNumber();
+
 /// Turns the name of an enumerator into its number, which CLI11 reads; other names are refused with the list of names.
 template <class Enum>
 CLI::Validator oneOf(const std::map<std::string, Enum>& names) {

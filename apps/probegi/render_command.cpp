@@ -182,6 +182,7 @@ void addMethodOptions(CLI::App& command, RenderOptions& options) {
         ->check(inRange(0.001, 1e6));
     command.add_option("--seed", options.seed, "another number, other noise; equal numbers, equal pictures")
         ->type_name("N")
+        ->check(wholeNumber())
         ->capture_default_str();
 }
 

@@ -47,7 +47,12 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{"--fov", "180"}, std::pair{"--volume", "0,0,0:1"}, std::pair{"--volume", "0,0,0:0:4x4x4"},
                     std::pair{"--volume", "0,0,0:1:1x4x4"}, std::pair{"--volume", "0,0:1:4x4x4"},
                     std::pair{"--time-of-scene", "late"}, std::pair{"--wall", "1"}, std::pair{"--albedo", "1"},
-                    std::pair{"--emission", "-1"}, std::pair{"--power", "0"}, std::pair{"--radius", "0"}));
+                    std::pair{"--emission", "-1"}, std::pair{"--power", "0"}, std::pair{"--radius", "0"}),
+    [](const auto& instance) {
+        std::string name = instance.param.first + std::string("_") + std::to_string(instance.index);
+        std::erase_if(name, [](char c) { return c == '-'; });
+        return name;
+    });
 
 TEST(Usage, UnknownOptionsAndCommandsAreRefused) {
     expectRefused({"render", "builtin:cornell", "-o", "a.png", "--frobnicate"}, "--frobnicate", 2);
@@ -57,7 +62,7 @@ TEST(Usage, UnknownOptionsAndCommandsAreRefused) {
 }
 
 TEST(Usage, MissingArgumentsAreNamed) {
-    expectRefused({"render"}, "SCENE", 2);
+    expectRefused({"render", "-o", "a.png"}, "SCENE", 2);
     expectRefused({"render", "builtin:cornell"}, "--output", 2);
     expectRefused({"render", "builtin:cornell", "-o"}, "--output", 2);
     expectRefused({"compare", "a.exr"}, "B", 2);
