@@ -1,0 +1,232 @@
+#include "bench_measure.h"
+
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "bench_floor.h"
+#include "probegi/render.h"
+#include "render_stats.h"
+
+namespace probegi::tool {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kWarmUpUpdates = 8;           // until the field holds light of several bounces
+constexpr double kLeastGrowthRays = 320e3;  // of one sample: small volumes are updated several times
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::vector<Ray> probeRays(const Field& field) {
+    const GridDesc& grid = field.desc().grid;
+    std::vector<Ray> rays;
+    rays.reserve(std::size_t(probeCount(grid)) * field.rayDirections().size());
+    for (int probe = 0; probe < probeCount(grid); ++probe)
+        for (const glm::vec3& direction : field.rayDirections())
+            rays.push_back({probePosition(grid, probe), 0.0f, direction});
+    return rays;
+}
+
+// Through the pixels' centres, row by row.
+std::vector<Ray> primaryRays(const PlacedCamera& camera, int width, int height) {
+    const float pixel = 2.0f * std::tan(0.5f * camera.yfov) / float(height);
+    const glm::vec3 right = pixel * glm::cross(camera.forward, camera.up), up = pixel * camera.up;
+    std::vector<Ray> rays;
+    rays.reserve(std::size_t(width) * std::size_t(height));
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const float fromMiddleX = float(x) + 0.5f - 0.5f * float(width);
+            const float fromMiddleY = 0.5f * float(height) - float(y) - 0.5f;
+            const glm::vec3 direction = camera.forward + fromMiddleX * right + fromMiddleY * up;
+            rays.push_back({camera.position, 0.0f, glm::normalize(direction)});
+        }
+    return rays;
+}
+
+// What the picture asks the field, in the order of the rays.
+std::vector<FieldQuery> visiblePoints(const Tracer& tracer, std::span<const Ray> rays) {
+    constexpr std::size_t kBatch = 65536;  // surfaces are large
+    std::vector<FieldQuery> points;
+    for (std::size_t begin = 0; begin < rays.size(); begin += kBatch) {
+        const auto batch = rays.subspan(begin, std::min(kBatch, rays.size() - begin));
+        std::vector<Hit> hits(batch.size());
+        std::vector<Surface> surfaces(batch.size());
+        tracer.closestHits(batch, hits);
+        tracer.surfaces(batch, hits, surfaces);
+        for (std::size_t i = 0; i < batch.size(); ++i)
+            if (hits[i].valid())
+                points.push_back({surfaces[i].position, surfaces[i].shadingNormal, -batch[i].direction});
+    }
+    return points;
+}
+
+Result<Context> quietContext(int threads) {
+    ContextDesc desc;
+    desc.threads = threads;
+    return Context::create(desc);
+}
+
+// Everything that lasts from round to round. Created at one address, where it stays.
+class Bench {
+public:
+    static Result<std::unique_ptr<Bench>> create(const LoadedSetup& setup, const BenchPlan& plan);
+
+    Result<void> warmUp();
+    Result<BenchRound> round();
+    Result<void> growth(BenchResult& result, const BenchProgress& progress) const;
+    BenchResult facts() const;
+
+private:
+    Bench(const LoadedSetup& setup, const BenchPlan& plan, Context all, Context one, RawEmbree raw, RawEmbree robust)
+        : m_setup(setup),
+          m_plan(plan),
+          m_all(std::move(all)),
+          m_one(std::move(one)),
+          m_raw(std::move(raw)),
+          m_robust(std::move(robust)) {}
+
+    const LoadedSetup& m_setup;
+    const BenchPlan& m_plan;
+    Context m_all, m_one;
+    RawEmbree m_raw, m_robust;
+    std::unique_ptr<Tracer> m_tracer;
+    std::optional<Field> m_field, m_fieldAlone;
+    std::vector<Ray> m_primary;
+    std::vector<FieldQuery> m_points;
+    std::vector<glm::vec3> m_irradiance;
+};
+
+Result<std::unique_ptr<Bench>> Bench::create(const LoadedSetup& setup, const BenchPlan& plan) {
+    const auto all = quietContext(plan.threads), one = quietContext(1);
+    if (!all) return tl::unexpected(all.error());
+    auto raw = RawEmbree::create(*setup.scene, setup.pose, all->threads(), false);
+    if (!raw) return tl::unexpected(raw.error());
+    auto robust = RawEmbree::create(*setup.scene, setup.pose, all->threads(), true);
+    if (!robust) return tl::unexpected(robust.error());
+    std::unique_ptr<Bench> bench(new Bench(setup, plan, *all, *one, std::move(*raw), std::move(*robust)));
+
+    auto tracer = makeEmbreeTracer(*all, *setup.scene, setup.pose);
+    if (!tracer) return tl::unexpected(tracer.error());
+    bench->m_tracer = std::move(*tracer);
+    FieldDesc desc;
+    desc.grid = setup.grid;
+    desc.raysPerProbe = plan.raysPerProbe;
+    auto field = Field::create(*all, desc), alone = Field::create(*one, desc);
+    if (!field) return tl::unexpected(field.error());
+    if (!alone) return tl::unexpected(alone.error());
+    bench->m_field.emplace(std::move(*field));
+    bench->m_fieldAlone.emplace(std::move(*alone));
+    bench->m_primary = primaryRays(setup.camera, plan.width, plan.height);
+    bench->m_points = visiblePoints(*bench->m_tracer, bench->m_primary);
+    bench->m_irradiance.resize(bench->m_points.size());
+    return bench;
+}
+
+Result<void> Bench::warmUp() {
+    const auto done = m_field->converge(*m_tracer, m_setup.lighting, 1e-6f, kWarmUpUpdates);
+    if (!done) return tl::unexpected(done.error());
+    return round().map([](const BenchRound&) {});
+}
+
+Result<BenchRound> Bench::round() {
+    BenchRound round;
+    {
+        const std::vector<Ray> rays = probeRays(*m_field);
+        round.floor = m_raw.trace(rays);
+        round.robustFloor = m_robust.trace(rays);
+    }
+    const auto times = m_field->update(*m_tracer, m_setup.lighting);
+    if (!times) return tl::unexpected(times.error());
+    round.update = *times;
+
+    auto start = Clock::now();
+    m_field->irradiance(m_points, m_irradiance);
+    round.query = millisecondsSince(start);
+
+    round.primaryFloor = m_raw.trace(m_primary);
+    start = Clock::now();
+    const auto picture = renderPicture(m_all, *m_tracer, m_setup.lighting, &*m_field,
+                                       {m_setup.camera, m_plan.width, m_plan.height, 1, false});
+    if (!picture) return tl::unexpected(picture.error());
+    round.picture = millisecondsSince(start);
+
+    const auto alone = m_fieldAlone->update(*m_tracer, m_setup.lighting);
+    if (!alone) return tl::unexpected(alone.error());
+    round.updateAlone = alone->total;
+    return round;
+}
+
+BenchResult Bench::facts() const {
+    BenchResult result;
+    result.threads = m_all.threads();
+    result.probes = probeCount(m_setup.grid);
+    result.raysPerProbe = m_plan.raysPerProbe;
+    result.triangles = triangleCount(*m_setup.scene, m_setup.pose);
+    result.points = m_points.size();
+    result.pixels = m_primary.size();
+    result.persistentBytes = m_field->memory().persistentBytes();
+    result.scratchBytes = m_field->memory().scratchBytes;
+    return result;
+}
+
+// Volumes of several sizes over the same scene, updated in turn.
+Result<void> Bench::growth(BenchResult& result, const BenchProgress& progress) const {
+    std::vector<Field> fields;
+    for (const BenchPlan::Volume& volume : m_plan.growth) {
+        PlacementDesc placement;
+        placement.counts = volume.counts;
+        const auto grid = placeGrid(m_setup.pose.bounds, placement);
+        if (!grid) return tl::unexpected(grid.error());
+        FieldDesc desc;
+        desc.grid = *grid;
+        desc.raysPerProbe = volume.raysPerProbe;
+        auto field = Field::create(m_all, desc);
+        if (!field) return tl::unexpected(field.error());
+        fields.push_back(std::move(*field));
+        result.growth.push_back({probeCount(*grid), volume.raysPerProbe, {}});
+    }
+    for (int round = 0; round <= m_plan.rounds; ++round) {
+        progress("growth", round, m_plan.rounds);
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+            const double rays = double(result.growth[i].probes) * result.growth[i].rays;
+            const int repeats = std::max(1, int(kLeastGrowthRays / rays));
+            const auto start = Clock::now();
+            for (int k = 0; k < repeats; ++k)
+                if (const auto done = fields[i].update(*m_tracer, m_setup.lighting); !done)
+                    return tl::unexpected(done.error());
+            if (round > 0) result.growth[i].ms.push_back(millisecondsSince(start) / repeats);
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+double BenchResult::median(const std::function<double(const BenchRound&)>& value) const {
+    std::vector<double> values;
+    for (const BenchRound& round : rounds) values.push_back(value(round));
+    return tool::median(std::move(values));
+}
+
+Result<BenchResult> runBench(const LoadedSetup& setup, const BenchPlan& plan, const BenchProgress& progress) {
+    progress("warming up", 0, plan.rounds);
+    const auto bench = Bench::create(setup, plan);
+    if (!bench) return tl::unexpected(bench.error());
+    if (const auto done = (*bench)->warmUp(); !done) return tl::unexpected(done.error());
+    BenchResult result = (*bench)->facts();
+    for (int round = 1; round <= plan.rounds; ++round) {
+        progress("stages", round, plan.rounds);
+        const auto measured = (*bench)->round();
+        if (!measured) return tl::unexpected(measured.error());
+        result.rounds.push_back(*measured);
+    }
+    if (const auto done = (*bench)->growth(result, progress); !done) return tl::unexpected(done.error());
+    return result;
+}
+
+}  // namespace probegi::tool

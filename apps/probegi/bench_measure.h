@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "scene_setup.h"
+
+namespace probegi::tool {
+
+/// What `probegi bench` measures, and how often.
+struct BenchPlan {
+    int threads = 2;
+    int raysPerProbe = 144;
+    int rounds = 5;  ///< measured ones; one more goes before them
+    int width = 1920, height = 1080;
+    struct Volume {
+        glm::ivec3 counts{0};
+        int raysPerProbe = 32;
+    };
+    std::vector<Volume> growth;  ///< of the growth table; few rays, for a million probes have many
+};
+
+/// Wall-clock milliseconds of everything that is compared, measured one after the other within a round: a machine
+/// that is slow for a while is slow for all of them.
+struct BenchRound {
+    double floor = 0;         ///< raw Embree, the rays of the update
+    double robustFloor = 0;   ///< the same with the flag that ProbeGI's tracer sets
+    UpdateTimes update;       ///< all threads
+    double updateAlone = 0;   ///< whole update on one thread
+    double query = 0;         ///< the field at every point of the picture
+    double primaryFloor = 0;  ///< raw Embree, the rays of the picture
+    double picture = 0;
+};
+
+struct BenchGrowth {
+    int probes = 0;
+    int rays = 0;
+    std::vector<double> ms;  ///< of one update, by round
+};
+
+struct BenchResult {
+    int threads = 0;  ///< as asked for
+    int probes = 0, raysPerProbe = 0;
+    std::size_t triangles = 0, points = 0;  ///< of the scene; where the picture's rays hit it
+    std::size_t pixels = 0;
+    std::size_t persistentBytes = 0, scratchBytes = 0;
+    std::vector<BenchRound> rounds;
+    std::vector<BenchGrowth> growth;
+
+    double rays() const { return double(probes) * raysPerProbe; }
+    /// Median over the rounds of something about a round.
+    double median(const std::function<double(const BenchRound&)>& value) const;
+};
+
+/// Called before each round: what is measured, the round's number (0: warm-up) and how many there are.
+using BenchProgress = std::function<void(std::string_view, int, int)>;
+
+/// Errors: those of the passes that are measured.
+Result<BenchResult> runBench(const LoadedSetup& setup, const BenchPlan& plan, const BenchProgress& progress);
+
+}  // namespace probegi::tool
