@@ -127,6 +127,13 @@ public:
     /// The same for many points, on all threads. The spans must be equally long (asserted).
     void irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> out) const;
 
+    /// Queries so far whose eight probes all stood in walls and that wider neighbours answered: above a few per cent
+    /// the grid is too coarse for the scene.
+    std::uint64_t fallbackQueries() const noexcept;
+
+    /// Share of probe `probe`'s rays that hit backfaces, 0..1; above 0.3 the probe stands in a wall and is not used.
+    float probeBackfaceShare(int probe) const noexcept;
+
     /// What probe `probe` stores: E in W m^-2 for a surface facing `normal` at the probe itself.
     glm::vec3 probeIrradiance(int probe, glm::vec3 normal) const noexcept;
     /// Mean and mean square of the distance that probe `probe` stores in a direction, metres and square metres.

@@ -23,8 +23,8 @@ namespace probegi {
 struct TextureImage {
     int width = 0;
     int height = 0;
-    std::vector<std::uint8_t> rgba;  ///< 4 * width * height
-    std::string name;
+    std::vector<std::uint8_t> rgba{};  ///< 4 * width * height
+    std::string name{};
 };
 
 enum class Wrap : std::uint8_t { repeat, clampToEdge, mirroredRepeat };
@@ -44,16 +44,16 @@ enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
 /// glTF 2.0 metallic-roughness material. Textures multiply the factors.
 struct Material {
-    std::string name;
+    std::string name{};
     glm::vec4 baseColor{1.0f};  ///< linear RGB + alpha, 0..1
     float metallic = 0.0f;      ///< 0..1
     float roughness = 1.0f;     ///< 0..1, perceptual (alpha = roughness^2)
     glm::vec3 emission{0.0f};   ///< radiance, W sr^-1 m^-2, >= 0 (emissiveFactor x KHR_materials_emissive_strength)
     float normalScale = 1.0f;
-    TextureRef baseColorTexture;          ///< sRGB + linear alpha
-    TextureRef metallicRoughnessTexture;  ///< linear; B metallic, G roughness
-    TextureRef normalTexture;             ///< linear, tangent space
-    TextureRef emissiveTexture;           ///< sRGB
+    TextureRef baseColorTexture{};          ///< sRGB + linear alpha
+    TextureRef metallicRoughnessTexture{};  ///< linear; B metallic, G roughness
+    TextureRef normalTexture{};             ///< linear, tangent space
+    TextureRef emissiveTexture{};           ///< sRGB
     AlphaMode alphaMode = AlphaMode::opaque;
     float alphaCutoff = 0.5f;  ///< for AlphaMode::mask, 0..1
     bool doubleSided = false;  ///< false: the back is solid wall to the probes (radiance 0, shortened distance)
@@ -61,25 +61,26 @@ struct Material {
 
 /// Indexed triangles with one material. Normals, tangents and uvs are empty or as long as positions.
 struct Primitive {
-    std::vector<glm::vec3> positions;  ///< metres, mesh space
-    std::vector<glm::vec3> normals;    ///< unit; empty: the geometric normal
-    std::vector<glm::vec4> tangents;  ///< xyz unit, w = handedness +-1; empty: derived from uvs where a normal map asks
+    std::vector<glm::vec3> positions{};  ///< metres, mesh space
+    std::vector<glm::vec3> normals{};    ///< unit; empty: the geometric normal
+    std::vector<glm::vec4>
+        tangents{};  ///< xyz unit, w = handedness +-1; empty: derived from uvs where a normal map asks
     std::vector<glm::vec2> uv0;
     std::vector<glm::vec2> uv1;
-    std::vector<std::uint32_t> indices;  ///< 3 per triangle, counter-clockwise seen from the front
-    int material = 0;                    ///< index into Scene::materials
+    std::vector<std::uint32_t> indices{};  ///< 3 per triangle, counter-clockwise seen from the front
+    int material = 0;                      ///< index into Scene::materials
 };
 
 struct Mesh {
-    std::string name;
-    std::vector<Primitive> primitives;
+    std::string name{};
+    std::vector<Primitive> primitives{};
 };
 
 enum class LightType : std::uint8_t { directional, point, spot };
 
 /// KHR_lights_punctual. The node's -Z axis is the direction the light travels in.
 struct Light {
-    std::string name;
+    std::string name{};
     LightType type = LightType::point;
     glm::vec3 intensity{1.0f};    ///< directional: W m^-2 at normal incidence ("lx"); point, spot: W sr^-1 ("cd")
     float range = 0.0f;           ///< metres; 0: unlimited
@@ -89,19 +90,19 @@ struct Light {
 
 /// Perspective pinhole. The node's -Z axis is the viewing direction, +Y is up.
 struct Camera {
-    std::string name;
+    std::string name{};
     float yfov = 1.0471976f;  ///< vertical, radians, 0..pi
     float znear = 0.01f;      ///< metres
 };
 
 /// One place in the hierarchy. Parents come before children in Scene::nodes.
 struct Node {
-    std::string name;
+    std::string name{};
     int parent = -1;
     glm::vec3 translation{0.0f};
     glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
     glm::vec3 scale{1.0f};
-    std::optional<glm::mat4> matrix;  ///< where given, replaces translation, rotation and scale (and is not animated)
+    std::optional<glm::mat4> matrix{};  ///< where given, replaces translation, rotation and scale (and is not animated)
     int mesh = -1;
     int light = -1;
     int camera = -1;
@@ -116,31 +117,31 @@ struct AnimationChannel {
     int node = -1;
     AnimationPath path = AnimationPath::translation;
     Interpolation interpolation = Interpolation::linear;
-    std::vector<float> times;  ///< seconds, strictly increasing
-    std::vector<glm::vec4> values;
+    std::vector<float> times{};  ///< seconds, strictly increasing
+    std::vector<glm::vec4> values{};
 };
 
 /// Light from infinitely far away.
 struct Sky {
     glm::vec3 radiance{0.0f};  ///< W sr^-1 m^-2; a factor on the image where there is one
-    HdrImage image;            ///< equirectangular, centre column = direction -Z, top row = +Y; empty: constant
+    HdrImage image{};          ///< equirectangular, centre column = direction -Z, top row = +Y; empty: constant
     bool textured() const { return image.width > 0; }
     bool black() const { return radiance.x <= 0 && radiance.y <= 0 && radiance.z <= 0; }
 };
 
 /// Everything that can be seen or lights something: plain data, freely editable.
 struct Scene {
-    std::string name;
-    std::vector<Mesh> meshes;
-    std::vector<Material> materials;
-    std::vector<TextureImage> images;
-    std::vector<Light> lights;
-    std::vector<Camera> cameras;
-    std::vector<Node> nodes;
-    std::vector<AnimationChannel> animations;
-    Sky sky;
-    std::optional<GridDesc> grid;  ///< a probe grid that came with the scene; empty: placed automatically
-    float exposure = 1.0f;         ///< suggested tone-map exposure for pictures of this scene
+    std::string name{};
+    std::vector<Mesh> meshes{};
+    std::vector<Material> materials{};
+    std::vector<TextureImage> images{};
+    std::vector<Light> lights{};
+    std::vector<Camera> cameras{};
+    std::vector<Node> nodes{};
+    std::vector<AnimationChannel> animations{};
+    Sky sky{};
+    std::optional<GridDesc> grid{};  ///< a probe grid that came with the scene; empty: placed automatically
+    float exposure = 1.0f;           ///< suggested tone-map exposure for pictures of this scene
 
     /// Adds a root node and returns its index.
     int addNode(Node node) {
@@ -169,7 +170,7 @@ struct PlacedLight {
 
 /// A camera in world space.
 struct PlacedCamera {
-    std::string name;
+    std::string name{};
     glm::vec3 position{0.0f};
     glm::vec3 forward{0, 0, -1};  ///< unit
     glm::vec3 up{0, 1, 0};        ///< unit, orthogonal to forward
@@ -185,9 +186,9 @@ struct Bounds {
 
 /// The scene at one moment: the hierarchy and its animations resolved to world space.
 struct ScenePose {
-    std::vector<Instance> instances;
-    std::vector<PlacedLight> lights;
-    std::vector<PlacedCamera> cameras;
+    std::vector<Instance> instances{};
+    std::vector<PlacedLight> lights{};
+    std::vector<PlacedCamera> cameras{};
     Bounds bounds;  ///< of all triangles, metres; zero-sized for a scene without triangles
 };
 

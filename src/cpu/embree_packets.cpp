@@ -1,7 +1,8 @@
 #include "cpu/embree_packets.h"
 
 #include <algorithm>
-#include <glm/geometric.hpp>
+#include <cmath>
+#include <glm/common.hpp>
 
 #include "cpu/embree_float_mode.h"
 
@@ -14,27 +15,61 @@ constexpr std::size_t kWidth = 16;
 constexpr float kCoherentCosine = 0.99f;
 
 RTCRay single(const Ray& ray) {
-    return {ray.origin.x,    ray.origin.y,    ray.origin.z, ray.near, ray.direction.x, ray.direction.y,
-            ray.direction.z, 0.0f /* time */, ray.far,      ~0u,      0 /* id */,      0 /* flags */};
+    return {ray.origin.x,    ray.origin.y,
+            ray.origin.z,    std::max(0.0f, ray.near),
+            ray.direction.x, ray.direction.y,
+            ray.direction.z, 0.0f /* time */,
+            ray.far,         ~0u,
+            0 /* id */,      0 /* flags */};
 }
 
 Hit miss() {
     return {};
 }
 
-/// The valid mask of the first `count` lanes.
-void enable(int (&valid)[kWidth], std::size_t count) {
-    for (std::size_t k = 0; k < kWidth; ++k) valid[k] = k < count ? -1 : 0;
+/// Beyond it Embree's arithmetic overflows; it asserts on such rays, and on those that are not numbers.
+constexpr float kLargest = 1.8e18f;
+
+bool usable(const Ray& ray) {
+    const glm::vec3 o = glm::abs(ray.origin), d = glm::abs(ray.direction);
+    return o.x <= kLargest && o.y <= kLargest && o.z <= kLargest && d.x <= kLargest && d.y <= kLargest &&
+           d.z <= kLargest && ray.near <= ray.far;
 }
 
-/// Lanes beyond the rays repeat the first ray; they are disabled, but must hold numbers.
+/// Embree's mask of the lanes that hold usable rays: -1 or 0. Written without branches, for SIMD.
+void findUsable(const RTCRay16& r, std::size_t count, int (&valid)[kWidth]) {
+    for (std::size_t k = 0; k < kWidth; ++k) {
+        const bool origin = (std::abs(r.org_x[k]) <= kLargest) & (std::abs(r.org_y[k]) <= kLargest) &
+                            (std::abs(r.org_z[k]) <= kLargest);
+        const bool direction = (std::abs(r.dir_x[k]) <= kLargest) & (std::abs(r.dir_y[k]) <= kLargest) &
+                               (std::abs(r.dir_z[k]) <= kLargest);
+        valid[k] = origin & direction & (r.tnear[k] <= r.tfar[k]) & (k < count) ? -1 : 0;
+    }
+}
+
+/// Whether Embree should traverse the packet as one: nearly one origin and nearly one direction.
+bool coherent(const RTCRay16& r, float originSpread) {
+    float cosine = 1.0f, spread = 0.0f;
+    for (std::size_t k = 0; k < kWidth; ++k) {
+        const float dot = r.dir_x[k] * r.dir_x[0] + r.dir_y[k] * r.dir_y[0] + r.dir_z[k] * r.dir_z[0];
+        cosine = dot < cosine ? dot : cosine;
+        const float x = std::abs(r.org_x[k] - r.org_x[0]), y = std::abs(r.org_y[k] - r.org_y[0]);
+        const float z = std::abs(r.org_z[k] - r.org_z[0]);
+        spread = x > spread ? x : spread;
+        spread = y > spread ? y : spread;
+        spread = z > spread ? z : spread;
+    }
+    return spread <= originSpread && cosine >= kCoherentCosine;
+}
+
+/// Lanes beyond the rays repeat the first ray: disabled, but what Embree and coherent() read.
 void load(RTCRay16& packet, std::span<const Ray> rays) {
     for (std::size_t k = 0; k < kWidth; ++k) {
         const Ray& ray = rays[k < rays.size() ? k : 0];
         packet.org_x[k] = ray.origin.x;
         packet.org_y[k] = ray.origin.y;
         packet.org_z[k] = ray.origin.z;
-        packet.tnear[k] = ray.near;
+        packet.tnear[k] = std::max(0.0f, ray.near);
         packet.dir_x[k] = ray.direction.x;
         packet.dir_y[k] = ray.direction.y;
         packet.dir_z[k] = ray.direction.z;
@@ -59,6 +94,7 @@ void store(const RTCRayHit16& packet, std::span<Hit> hits) {
 }
 
 Hit closestHit(RTCScene scene, RTCIntersectContext* context, const Ray& ray) {
+    if (!usable(ray)) return miss();
     RTCRayHit query;
     query.ray = single(ray);
     query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -71,6 +107,13 @@ Hit closestHit(RTCScene scene, RTCIntersectContext* context, const Ray& ray) {
             {query.hit.u, query.hit.v}};
 }
 
+bool occludedOne(RTCScene scene, RTCIntersectContext* context, const Ray& ray) {
+    if (!usable(ray)) return false;
+    RTCRay query = single(ray);
+    rtcOccluded1(scene, context, &query);
+    return query.tfar < 0.0f;  // Embree's mark of a blocked ray: minus infinity
+}
+
 }  // namespace
 
 EmbreePackets::EmbreePackets(RTCScene scene, float originSpread) : m_scene(scene), m_originSpread(originSpread) {
@@ -79,16 +122,8 @@ EmbreePackets::EmbreePackets(RTCScene scene, float originSpread) : m_scene(scene
     m_coherent.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
 }
 
-RTCIntersectContext* EmbreePackets::contextFor(std::span<const Ray> rays) {
-    const Ray& first = rays.front();
-    float cosine = 1.0f;
-    glm::vec3 spread(0.0f);
-    for (const Ray& ray : rays) {
-        cosine = std::min(cosine, glm::dot(ray.direction, first.direction));
-        spread = glm::max(spread, glm::abs(ray.origin - first.origin));
-    }
-    const bool near = std::max({spread.x, spread.y, spread.z}) <= m_originSpread;
-    return near && cosine >= kCoherentCosine ? &m_coherent : &m_incoherent;
+RTCIntersectContext* EmbreePackets::contextFor(const RTCRay16& rays) {
+    return coherent(rays, m_originSpread) ? &m_coherent : &m_incoherent;
 }
 
 void EmbreePackets::closestHits(std::span<const Ray> rays, std::span<Hit> hits) {
@@ -102,11 +137,11 @@ void EmbreePackets::closestHits(std::span<const Ray> rays, std::span<Hit> hits) 
     for (std::size_t i = 0; i < rays.size(); i += kWidth) {
         const std::size_t count = std::min(kWidth, rays.size() - i);
         const std::span<const Ray> batch = rays.subspan(i, count);
-        enable(valid, count);
         load(packet.ray, batch);
+        findUsable(packet.ray, count, valid);
         std::fill_n(packet.hit.geomID, kWidth, RTC_INVALID_GEOMETRY_ID);
         std::fill_n(packet.hit.instID[0], kWidth, RTC_INVALID_GEOMETRY_ID);
-        rtcIntersect16(valid, m_scene, contextFor(batch), &packet);
+        rtcIntersect16(valid, m_scene, contextFor(packet.ray), &packet);
         store(packet, hits.subspan(i, count));
     }
 }
@@ -114,9 +149,7 @@ void EmbreePackets::closestHits(std::span<const Ray> rays, std::span<Hit> hits) 
 void EmbreePackets::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
     const EmbreeFloatMode floatMode;
     if (rays.size() == 1) {
-        RTCRay ray = single(rays[0]);
-        rtcOccluded1(m_scene, &m_incoherent, &ray);
-        blocked[0] = ray.tfar < 0.0f ? 1 : 0;
+        blocked[0] = occludedOne(m_scene, &m_incoherent, rays[0]);
         return;
     }
     alignas(64) RTCRay16 packet;
@@ -124,11 +157,10 @@ void EmbreePackets::occluded(std::span<const Ray> rays, std::span<std::uint8_t> 
     for (std::size_t i = 0; i < rays.size(); i += kWidth) {
         const std::size_t count = std::min(kWidth, rays.size() - i);
         const std::span<const Ray> batch = rays.subspan(i, count);
-        enable(valid, count);
         load(packet, batch);
-        rtcOccluded16(valid, m_scene, contextFor(batch), &packet);
-        // Embree marks a blocked ray by a far end of minus infinity.
-        for (std::size_t k = 0; k < count; ++k) blocked[i + k] = packet.tfar[k] < 0.0f ? 1 : 0;
+        findUsable(packet, count, valid);
+        rtcOccluded16(valid, m_scene, contextFor(packet), &packet);
+        for (std::size_t k = 0; k < count; ++k) blocked[i + k] = valid[k] != 0 && packet.tfar[k] < 0.0f;
     }
 }
 

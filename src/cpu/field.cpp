@@ -57,8 +57,16 @@ struct Field::Impl {
 
     FieldView view() const {
         const glm::vec3& s = desc.grid.spacing;
-        return {&desc,    storage.irradiance.data(), storage.visibility.data(), &irradianceTaps, &visibilityTaps,
-                1.0f / s, std::min({s.x, s.y, s.z}), 1.0f / layout.maxDistance};
+        return {.desc = &desc,
+                .irradiance = storage.irradiance.data(),
+                .visibility = storage.visibility.data(),
+                .backfaceShare = storage.backfaceShare.data(),
+                .fallbacks = &fallbacks,
+                .irradianceTaps = &irradianceTaps,
+                .visibilityTaps = &visibilityTaps,
+                .inverseSpacing = 1.0f / s,
+                .minSpacing = std::min({s.x, s.y, s.z}),
+                .inverseMaxDistance = 1.0f / layout.maxDistance};
     }
 
     std::uint32_t seed() const {
@@ -126,6 +134,7 @@ struct Field::Impl {
     std::vector<RayDatum> rayData;
     BlendWeights weights;
     HysteresisSchedule events;
+    mutable std::atomic<std::uint64_t> fallbacks{0};
     int frame = 0;
 };
 
@@ -153,6 +162,9 @@ int Field::frame() const noexcept {
 std::span<const glm::vec3> Field::rayDirections() const noexcept {
     return m_impl->directions;
 }
+std::uint64_t Field::fallbackQueries() const noexcept {
+    return m_impl->fallbacks.load();
+}
 void Field::notify(FieldEvent event) noexcept {
     m_impl->events.notify(event);
 }
@@ -164,7 +176,8 @@ FieldMemory Field::memory() const noexcept {
     const Impl& m = *m_impl;
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return {bytes(m.storage.irradiance), bytes(m.storage.visibility),
-            bytes(m.irradianceTaps) + bytes(m.visibilityTaps) + bytes(m.directions) + sizeof(Impl),
+            bytes(m.storage.backfaceShare) + bytes(m.irradianceTaps) + bytes(m.visibilityTaps) + bytes(m.directions) +
+                sizeof(Impl),
             bytes(m.rayData) + bytes(m.weights.irradiance) + bytes(m.weights.visibility)};
 }
 
@@ -226,6 +239,10 @@ void Field::irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3>
 
 glm::vec3 Field::probeIrradiance(int probe, glm::vec3 normal) const noexcept {
     return probegi::probeIrradiance(m_impl->view(), probe, normal);
+}
+
+float Field::probeBackfaceShare(int probe) const noexcept {
+    return m_impl->storage.backfaceShare[std::size_t(probe)];
 }
 
 glm::vec2 Field::probeDistanceMoments(int probe, glm::vec3 direction) const noexcept {

@@ -37,9 +37,10 @@ void fillWeights(const Context& context, int size, std::span<const glm::vec3> di
 
 // Ray data of one block as the rows of the two products' left sides, made safe.
 struct BlockInput {
-    Matrix radiance;  // 3 rows a probe: r, g, b
-    Matrix distance;  // 2 rows a probe: distance, distance squared, as fractions of the farthest
-    Matrix valid;     // 1 row a probe: 0 where a ray hit a backface (BackfaceRule::excluded only)
+    std::vector<float> backfaceShare;  // of each probe
+    Matrix radiance;                   // 3 rows a probe: r, g, b
+    Matrix distance;                   // 2 rows a probe: distance, distance squared, as fractions of the farthest
+    Matrix valid;                      // 1 row a probe: 0 where a ray hit a backface (BackfaceRule::excluded only)
     bool weighted = false;
 };
 
@@ -55,11 +56,13 @@ void gather(const FieldDesc& desc, const FieldLayout& layout, std::span<const Ra
     in.distance.resize(2 * rows, rays);
     in.weighted = desc.backfaceRule == BackfaceRule::excluded;
     if (in.weighted) in.valid.resize(rows, rays);
+    in.backfaceShare.assign(rows, 0.0f);
     for (std::size_t p = 0; p < rows; ++p) {
         const RayDatum* row = data.data() + p * rays;
         for (std::size_t r = 0; r < rays; ++r) {
             const RayDatum& d = row[r];
-            const bool backface = d.distance < 0.0f;
+            const bool backface = std::signbit(d.distance);
+            in.backfaceShare[p] += backface ? 1.0f / float(rays) : 0.0f;
             for (int c = 0; c < 3; ++c) in.radiance(3 * p + c, r) = backface ? 0.0f : safeRadiance(d.radiance[c]);
             const float finite = std::isnan(d.distance) ? layout.maxDistance : d.distance;
             const float fraction = kernels::visibilityDistance(finite, layout.maxDistance);
@@ -118,7 +121,8 @@ void storeVisibility(const BlendFrame& frame, const Matrix& mean, std::size_t ro
 
 FieldStorage::FieldStorage(const FieldLayout& layout)
     : irradiance(layout.probes * layout.irradianceTexels * 3 + 1),
-      visibility(layout.probes * layout.visibilityTexels) {}
+      visibility(layout.probes * layout.visibilityTexels),
+      backfaceShare(layout.probes) {}
 
 void makeBlendWeights(const Context& context, const FieldDesc& desc, const FieldLayout&,
                       std::span<const glm::vec3> directions, BlendWeights& weights) {
@@ -144,6 +148,8 @@ void blendProbes(const Context& context, const FieldDesc& desc, const FieldLayou
             const std::size_t row = probe - begin;
             storeIrradiance(desc, frame, irradiance, 3 * row, probe, layout.irradianceTexels,
                             storage.irradiance.data() + 3 * probe * layout.irradianceTexels);
+            float& share = storage.backfaceShare[probe];
+            share = glm::mix(in.backfaceShare[row], share, frame.hysteresis.visibility);
             storeVisibility(frame, visibility, 2 * row, probe, layout.visibilityTexels,
                             storage.visibility.data() + probe * layout.visibilityTexels);
         }

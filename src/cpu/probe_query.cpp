@@ -52,6 +52,38 @@ const Real kCornerX([](int lane) { return float(lane & 1); });
 const Real kCornerY([](int lane) { return float(lane >> 1 & 1); });
 const Real kCornerZ([](int lane) { return float(lane >> 2 & 1); });
 
+// All eight probes stand in walls where their weights sum to less than this.
+constexpr float kVanished = 1e-9f;
+// Half the side, in probes, of the block that is searched then.
+constexpr int kSearch = 2;
+
+// The answer where no probe of the cage can give one: the probes of a wider block that do not stand in walls, by
+// distance, facing and what their moments say of the way; black only where there is none at all.
+glm::vec3 queryNeighbours(const FieldView& view, const FieldQuery& query) {
+    if (view.fallbacks) view.fallbacks->fetch_add(1, std::memory_order_relaxed);
+    const GridDesc& grid = view.desc->grid;
+    const glm::ivec3 base(glm::floor((query.position - grid.origin) * view.inverseSpacing));
+    const glm::ivec3 lowest = glm::clamp(base - (kSearch - 1), glm::ivec3(0), grid.counts - 1);
+    const glm::ivec3 highest = glm::clamp(base + kSearch, glm::ivec3(0), grid.counts - 1);
+    glm::vec3 sum(0.0f);
+    float weightSum = 0;
+    for (int z = lowest.z; z <= highest.z; ++z)
+        for (int y = lowest.y; y <= highest.y; ++y)
+            for (int x = lowest.x; x <= highest.x; ++x) {
+                const int probe = x + grid.counts.x * (y + grid.counts.y * z);
+                const glm::vec3 toProbe = probePosition(grid, probe) - query.position;
+                const float distance = glm::length(toProbe) + 1e-20f;
+                const glm::vec2 moments = probeMoments(view, probe, toProbe / -distance);
+                const float near = view.minSpacing / (view.minSpacing + distance);
+                const float weight = kernels::outsideWeight(view.backfaceShare[probe]) * near * near * near * near *
+                                     kernels::backfaceWeight(glm::dot(toProbe, query.normal) / distance) *
+                                     kernels::chebyshevWeight(moments.x, moments.y, distance * view.inverseMaxDistance);
+                sum += weight * probeIrradiance(view, probe, query.normal);
+                weightSum += weight;
+            }
+    return weightSum > 0 ? sum / weightSum : glm::vec3(0.0f);
+}
+
 // Steps 1 to 3 of section 2.2 for the eight probes around a point, then their weighted sum.
 template <class Guard>
 glm::vec3 queryOne(const FieldView& view, const FieldQuery& query, const Guard& guard) {
@@ -78,7 +110,11 @@ glm::vec3 queryOne(const FieldView& view, const FieldQuery& query, const Guard& 
 
     const Real trilinear = wide::trilinearFactor(kCornerX, alpha.x) * wide::trilinearFactor(kCornerY, alpha.y) *
                            wide::trilinearFactor(kCornerZ, alpha.z);
-    const Real weight = wide::crushWeight(wide::backfaceWeight(cosToProbe) * guard(view, cage)) * trilinear;
+    const Real share([&](auto lane) { return view.backfaceShare[cage.probes[lane]]; });
+    const Real weight = wide::crushWeight(wide::backfaceWeight(cosToProbe) * guard(view, cage)) * trilinear *
+                        wide::outsideWeight(share);
+    const float weightSum = wide::stdx::reduce(weight);
+    if (!(weightSum > kVanished)) return queryNeighbours(view, query);
 
     const int size = view.desc->irradianceTexels;
     const Footprint footprint = footprintOf(*view.irradianceTaps, size, query.normal);
@@ -88,7 +124,7 @@ glm::vec3 queryOne(const FieldView& view, const FieldQuery& query, const Guard& 
         const Texel stored = storedIrradiance(view.irradiance + 3 * texels, footprint);
         sum += float(weight[lane]) * (stored * stored * wide::stdx::sqrt(stored));
     }
-    sum /= wide::stdx::reduce(weight);
+    sum /= weightSum;
     return glm::vec3(sum[0] * sum[0], sum[1] * sum[1], sum[2] * sum[2]) * kernels::kPi;
 }
 

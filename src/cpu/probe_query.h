@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,6 +21,8 @@ struct FieldView {
     const FieldDesc* desc = nullptr;
     const std::uint16_t* irradiance = nullptr;
     const std::uint32_t* visibility = nullptr;
+    const float* backfaceShare = nullptr;
+    std::atomic<std::uint64_t>* fallbacks = nullptr;  ///< counts the queries that no probe of their cage could answer
     const TapTable* irradianceTaps = nullptr;
     const TapTable* visibilityTaps = nullptr;
     glm::vec3 inverseSpacing{1.0f};

@@ -10,9 +10,12 @@ namespace probegi {
 
 namespace {
 
-// Cells per axis for cubic cells of side s that cover `size` with the margin, at least one.
+// Added to the margin, in cells: a whole number of cells would put probes exactly into the outermost walls.
+constexpr float kOffWall = 0.25f;
+
+// Probes per axis for cubic cells of side s that cover `size` with the margin, at least one.
 glm::ivec3 countsFor(glm::vec3 size, float s, float marginCells) {
-    const glm::vec3 cells = glm::ceil(size / s) + 2.0f * marginCells;
+    const glm::vec3 cells = size / s + 2.0f * (marginCells + kOffWall);
     return glm::clamp(glm::ivec3(glm::ceil(cells)) + 1, glm::ivec3(2), glm::ivec3(1024));
 }
 
@@ -57,7 +60,7 @@ Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc) {
             if (desc.counts[axis] < 2 || desc.counts[axis] > 1024)
                 return fail(ErrorCode::invalidArgument,
                             fmt::format("counts has {}; each axis must have 2 to 1024 probes", desc.counts[axis]));
-            const float inner = float(desc.counts[axis] - 1) - 2.0f * desc.marginCells;
+            const float inner = float(desc.counts[axis] - 1) - 2.0f * (desc.marginCells + kOffWall);
             // Too few probes for a margin on both sides: the scene then fills the middle half of the grid.
             grid.spacing[axis] = padded[axis] / std::max(inner, 0.5f * float(desc.counts[axis] - 1));
         }

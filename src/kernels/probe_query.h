@@ -13,6 +13,10 @@ KERNEL_CONST float kMinChebyshev = 0.05f;
 // Weights below this are crushed.
 KERNEL_CONST float kCrushBelow = 0.2f;
 
+// Share of backface rays at which a probe begins to count as inside geometry, and over which it ceases to be used.
+KERNEL_CONST float kInsideShare = 0.25f;
+KERNEL_CONST float kInsideShareEdge = 0.05f;
+
 // Eq. 2: the offset from a surface point to where visibility is tested. `toViewer` is omega_o.
 KERNEL_FN vec3 selfShadowBias(vec3 normal, vec3 toViewer, float minSpacing, float tunableBias) {
     return (normal * 0.2f + toViewer * 0.8f) * (0.75f * minSpacing * tunableBias);
@@ -42,6 +46,12 @@ KERNEL_FN Real chebyshevWeight(Real mean, Real meanSquare, Real distance) {
 // Small weights shrink with their cube, so that eight leaking probes do not add up to a leak.
 KERNEL_FN Real crushWeight(Real w) {
     return select(w < kCrushBelow, w * w * w * (1.0f / (kCrushBelow * kCrushBelow)), w);
+}
+
+// How far a probe may be used at all: not when more than a quarter of its rays hit backfaces, since then it stands in a
+// wall (Listing 4 draws the same line); a soft edge keeps the answer continuous in time.
+KERNEL_FN Real outsideWeight(Real backfaceShare) {
+    return max(Real(0.0f), 1.0f - max(Real(0.0f), backfaceShare - kInsideShare) * (1.0f / kInsideShareEdge));
 }
 
 KERNELS_END

@@ -35,7 +35,8 @@ TEST(Placement, honoursCountsAndKeepsTheMargin) {
     const auto grid = placeGrid(bounds, {.counts = {12, 6, 12}});
     ASSERT_TRUE(grid);
     EXPECT_EQ(grid->counts, glm::ivec3(12, 6, 12));
-    EXPECT_NEAR(grid->origin.x, -grid->spacing.x, 1e-4f);
+    EXPECT_LE(grid->origin.x, -grid->spacing.x);
+    EXPECT_GE(grid->origin.x, -1.5f * grid->spacing.x);
     const auto tiny = placeGrid(bounds, {.counts = {2, 2, 2}});
     ASSERT_TRUE(tiny);
     EXPECT_LT(tiny->origin.x, 0.0f);

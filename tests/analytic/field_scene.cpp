@@ -1,0 +1,66 @@
+#include "analytic/field_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kernels/random.h"
+
+namespace probegi::test {
+
+namespace {
+
+GridDesc gridFor(const ScenePose& pose, const PlacementDesc& placement) {
+    return *placeGrid(pose.bounds, placement);
+}
+
+FieldDesc withGrid(FieldDesc desc, const GridDesc& grid) {
+    desc.grid = grid;
+    return desc;
+}
+
+}  // namespace
+
+FieldScene::FieldScene(std::string_view name, const BuiltinParams& params, const PlacementDesc& placement,
+                       FieldDesc desc)
+    : context(*Context::create()),
+      scene(*makeBuiltinScene(name, params)),
+      pose(poseAt(scene)),
+      tracer(std::move(*makeEmbreeTracer(context, scene, pose))),
+      lighting{pose.lights, scene.sky},
+      field(*Field::create(context, withGrid(desc, gridFor(pose, placement)))) {}
+
+FieldScene::FieldScene(Scene ownScene, const GridDesc& grid, FieldDesc desc)
+    : context(*Context::create()),
+      scene(std::move(ownScene)),
+      pose(poseAt(scene)),
+      tracer(std::move(*makeEmbreeTracer(context, scene, pose))),
+      lighting{pose.lights, scene.sky},
+      field(*Field::create(context, withGrid(desc, grid))) {}
+
+void FieldScene::run(int frames) {
+    for (int i = 0; i < frames; ++i) ASSERT_TRUE(field.update(*tracer, lighting));
+}
+
+std::vector<FieldQuery> FieldScene::surfaceQueries(int count) const {
+    std::vector<FieldQuery> queries;
+    std::uint32_t state = 17;
+    const auto random = [&] { return kernels::nextRandom(state); };
+    const GridDesc& grid = field.desc().grid;
+    for (int attempt = 0; attempt < 100 * count && int(queries.size()) < count; ++attempt) {
+        const float z = 2 * random() - 1, phi = 6.2831853f * random(), r = std::sqrt(1 - z * z);
+        Ray ray;
+        ray.origin = probePosition(grid, int(random() * float(probeCount(grid))));
+        ray.direction = {r * std::cos(phi), r * std::sin(phi), z};
+        Hit hit;
+        Surface surface;
+        tracer->closestHits({&ray, 1}, {&hit, 1});
+        if (!hit.valid()) continue;
+        tracer->surfaces({&ray, 1}, {&hit, 1}, {&surface, 1});
+        if (!surface.backface) queries.push_back({surface.position, surface.shadingNormal, -ray.direction});
+    }
+    EXPECT_EQ(int(queries.size()), count);
+    return queries;
+}
+
+}  // namespace probegi::test
