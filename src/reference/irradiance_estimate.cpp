@@ -11,7 +11,7 @@ namespace probegi {
 
 namespace {
 
-constexpr std::size_t kPathsPerChunk = 2048;
+constexpr std::size_t kPathsPerChunk = 1024;
 
 /// What one chunk found out about one point.
 struct Part {

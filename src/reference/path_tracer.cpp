@@ -25,7 +25,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kPathsPerBatch = 2048;
+constexpr std::size_t kPathsPerBatch = 1024;
 /// Samples a pixel between two looks at the stopping rules.
 constexpr int kMaxSamplesPerPass = 16;
 /// Fewer samples say too little about their own error to stop by it.
