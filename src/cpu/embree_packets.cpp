@@ -33,7 +33,7 @@ constexpr float kLargest = 1.8e18f;
 bool usable(const Ray& ray) {
     const glm::vec3 o = glm::abs(ray.origin), d = glm::abs(ray.direction);
     return o.x <= kLargest && o.y <= kLargest && o.z <= kLargest && d.x <= kLargest && d.y <= kLargest &&
-           d.z <= kLargest && ray.near <= ray.far;
+           d.z <= kLargest && std::max(0.0f, ray.near) <= ray.far;
 }
 
 /// Embree's mask of the lanes that hold usable rays: -1 or 0. Written without branches, for SIMD.
