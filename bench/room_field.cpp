@@ -1,0 +1,101 @@
+#include "room_field.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "kernels/ray_set.h"
+
+namespace probegi::bench {
+
+namespace {
+
+constexpr float kWall = 10.0f;  // the room is a cube with its middle at the origin, this far to each wall
+
+struct WallHit {
+    float distance;
+    glm::vec3 normal;  // into the room
+};
+
+WallHit hitWall(glm::vec3 origin, glm::vec3 direction) {
+    WallHit nearest{1e30f, glm::vec3(0.0f)};
+    for (int axis = 0; axis < 3; ++axis) {
+        const float side = direction[axis] < 0 ? -1.0f : 1.0f;
+        const float distance = (side * kWall - origin[axis]) / (direction[axis] + side * 1e-20f);
+        if (distance >= nearest.distance) continue;
+        nearest = {distance, glm::vec3(0.0f)};
+        nearest.normal[axis] = -side;
+    }
+    return nearest;
+}
+
+RayDatum datum(glm::vec3 origin, glm::vec3 direction) {
+    const WallHit hit = hitWall(origin, direction);
+    const glm::vec3 white = 1.1f + hit.normal;  // each wall has its own light
+    return {white * (0.1f + std::abs(direction.x)), hit.distance};
+}
+
+FieldDesc makeDesc(LeakGuard guard, glm::ivec3 counts, int raysPerProbe) {
+    FieldDesc desc;
+    desc.grid.counts = counts;
+    desc.grid.spacing = glm::vec3(1.9f * kWall) / glm::vec3(counts - 1);
+    desc.grid.origin = glm::vec3(-0.95f * kWall);
+    desc.raysPerProbe = raysPerProbe;
+    desc.guard = guard;
+    return desc;
+}
+
+}  // namespace
+
+RoomField::RoomField(LeakGuard guard, glm::ivec3 counts, int raysPerProbe)
+    : m_context(*Context::create({.threads = 1})),
+      m_desc(makeDesc(guard, counts, raysPerProbe)),
+      m_layout(m_desc),
+      m_storage(m_layout),
+      m_irradianceTaps(makeTapTable(m_desc.irradianceTexels)),
+      m_visibilityTaps(makeTapTable(m_desc.visibilityTexels)) {
+    for (std::uint32_t i = 0; i < m_layout.rays; ++i)
+        m_directions.push_back(kernels::sphericalFibonacci(i, std::uint32_t(m_layout.rays)));
+    for (std::size_t probe = 0; probe < m_layout.probes; ++probe)
+        for (const glm::vec3& direction : m_directions)
+            m_rayData.push_back(datum(probePosition(m_desc.grid, int(probe)), direction));
+    BlendWeights weights;
+    makeBlendWeights(m_context, m_desc, m_layout, m_directions, weights);
+    blendProbes(m_context, m_desc, m_layout, weights, m_rayData, {{0.0f, 0.0f}}, m_storage);
+}
+
+FieldView RoomField::view() const {
+    FieldView view;
+    view.desc = &m_desc;
+    view.irradiance = m_storage.irradiance.data();
+    view.visibility = m_storage.visibility.data();
+    view.backfaceShare = m_storage.backfaceShare.data();
+    view.irradianceTaps = &m_irradianceTaps;
+    view.visibilityTaps = &m_visibilityTaps;
+    const glm::vec3& s = m_desc.grid.spacing;
+    view.inverseSpacing = 1.0f / s;
+    view.minSpacing = std::min({s.x, s.y, s.z});
+    view.inverseMaxDistance = 1.0f / m_layout.maxDistance;
+    return view;
+}
+
+std::vector<FieldQuery> RoomField::screenPoints(int width, int height) const {
+    const glm::vec3 eye(0.6f * kWall, 0.2f * kWall, 0.5f * kWall);
+    std::vector<FieldQuery> points;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const float across = 2.0f * (float(x) + 0.5f) / float(width) - 1.0f;
+            const float down = 2.0f * (float(y) + 0.5f) / float(height) - 1.0f;
+            const glm::vec3 direction = glm::normalize(glm::vec3(-1.0f, -0.2f - 0.5f * down, 0.9f * across - 0.4f));
+            const WallHit hit = hitWall(eye, direction);
+            points.push_back({eye + hit.distance * direction, hit.normal, -direction});
+        }
+    return points;
+}
+
+std::vector<FieldQuery> shuffled(std::vector<FieldQuery> points) {
+    std::shuffle(points.begin(), points.end(), std::mt19937(1));
+    return points;
+}
+
+}  // namespace probegi::bench
