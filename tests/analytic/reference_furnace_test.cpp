@@ -92,5 +92,22 @@ TEST_P(IntegratingSphere, bouncedIrradiance) {
 
 INSTANTIATE_TEST_SUITE_P(albedos, IntegratingSphere, testing::Values(0.0f, 0.5f, 0.9f));
 
+/// The scenes that users see, through Embree's triangles.
+TEST(BuiltinScenes, furnaceAndSphereAreWhatTheyClaim) {
+    const BuiltinParams params{.albedo = 0.7f, .emission = 3.0f, .power = 80.0f, .radius = 1.5f};
+    const ReferenceWorld furnace(*makeBuiltinScene("furnace", params)), sphere(*makeBuiltinScene("sphere", params));
+    const FieldQuery middle{furnace.pose.bounds.centre(), {0, 1, 0}, {}};
+    const auto inFurnace = furnace.pathTracer().irradiance({&middle, 1}, 4000);
+    ASSERT_TRUE(inFurnace);
+    expectNear(inFurnace->front(), glm::vec3(kPi * 3.0f / 0.3f));
+
+    const FieldQuery inSphere{{0.0f, 0.3f, 0.2f}, {1, 0, 0}, {}};
+    const auto bounced = sphere.pathTracer().irradiance({&inSphere, 1}, 4000);
+    ASSERT_TRUE(bounced);
+    const float truth = 80.0f * 0.7f / (4 * kPi * 1.5f * 1.5f * 0.3f);
+    // The facets of the sphere are worth a thousandth.
+    EXPECT_NEAR(bounced->front().mean.x, truth, 3 * bounced->front().standardError.x + 1e-3f * truth);
+}
+
 }  // namespace
 }  // namespace probegi
