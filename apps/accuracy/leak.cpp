@@ -15,7 +15,7 @@ namespace {
 constexpr glm::vec3 kRoom(5.0f, 2.8f, 5.0f);
 constexpr int kPointsPerSide = 16;  ///< on each wall
 constexpr std::array<float, 4> kShifts{0.0f, 0.25f, 0.5f, 0.75f};
-constexpr int kUpdates = 48;
+constexpr int kUpdates = 24;
 
 /// Points spread over the inner faces of a box, looking inwards.
 std::vector<FieldQuery> wallPoints(glm::vec3 lower, glm::vec3 upper) {

@@ -14,6 +14,7 @@ using namespace probegi::accuracy;
 
 struct Options {
     std::string page;
+    std::string only;  ///< a scene, or "leak"; empty: all
     std::string scenesFolder = "../shared/scenes";
     int threads = 0;
     int samplesPerPixel = 256;
@@ -37,7 +38,7 @@ std::vector<Case> cases(const Options& options) {
     add("cornell", "builtin:cornell", "", "");
     add("two-rooms", "builtin:two-rooms", "second", "");
     add("dark-room", "builtin:dark-room", "lit", "");
-    add("Sponza, sun and sky", options.scenesFolder + "/sponza/sponza.glb", "nave", "0.6,0.8,1.2");
+    add("sponza", options.scenesFolder + "/sponza/sponza.glb", "nave", "0.6,0.8,1.2");
     return list;
 }
 
@@ -56,7 +57,9 @@ Result<void> measure(const Options& options) {
     const auto context = tool::makeContext(options.threads);
     if (!context) return tl::unexpected(context.error());
     std::vector<MeasuredScene> scenes;
+    const auto wanted = [&](const std::string& name) { return options.only.empty() || options.only == name; };
     for (const Case& entry : cases(options)) {
+        if (!wanted(entry.name)) continue;
         const auto setup = tool::loadSetup(entry.options);
         if (!setup) return tl::unexpected(setup.error());
         auto rendered = tool::renderForReport(*context, *setup, settingsOf(options));
@@ -65,12 +68,13 @@ Result<void> measure(const Options& options) {
     }
     std::vector<LeakResult> leaks;
     for (const float thickness : {0.02f, 0.05f, 0.10f, 0.20f, 0.30f}) {
+        if (!wanted("leak")) break;
         const auto leak = measureLeak(*context, thickness);
         if (!leak) return tl::unexpected(leak.error());
         leaks.push_back(*leak);
     }
     const std::string tables = accuracyTables(scenes, leaks, context->threads());
-    if (!options.page.empty()) return replaceBetweenMarkers(options.page, tables);
+    if (!options.page.empty() && options.only.empty()) return replaceBetweenMarkers(options.page, tables);
     fmt::print("{}", tables);
     return {};
 }
@@ -81,6 +85,8 @@ int run(int argc, char** argv) {
     if (const char* folder = std::getenv("PROBEGI_SCENES"); folder && *folder) options.scenesFolder = folder;
     app.add_option("-o,--output", options.page, "page whose measured part is replaced (default: print)")
         ->type_name("FILE");
+    app.add_option("--only", options.only, "print the tables of one scene, or the leak, and write nothing")
+        ->type_name("cornell|two-rooms|dark-room|sponza|leak");
     app.add_option("--scenes", options.scenesFolder, "folder of the real scenes (default: PROBEGI_SCENES)")
         ->capture_default_str();
     app.add_option("--threads", options.threads, "worker threads; 0: all")->check(tool::inRange(0, 1024));

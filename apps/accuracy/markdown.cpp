@@ -31,6 +31,9 @@ std::string differenceTable(const std::vector<MeasuredScene>& scenes) {
         text += methodRow(name, "no GI", scene.none);
         text += methodRow("", "leaking field", scene.leaky);
         text += methodRow("", "field", scene.ddgi);
+        const ImageDifference& floor = scene.noiseFloor;
+        text += fmt::format("| | *an exact picture* | {:.4f} | {:.4f} | {:.4f} | | | |\n", floor.rmse, floor.relmse,
+                            floor.flip);
     }
     return text + "\n";
 }

@@ -111,7 +111,8 @@ nlohmann::json sceneNumbers(const RenderedScene& scene) {
     json["methods"]["ddgi"]["field"] = numbers(scene.ddgiField);
     json["reference"] = {{"samplesPerPixel", scene.referenceSamples},
                          {"seconds", scene.referenceSeconds},
-                         {"relativeNoise", scene.referenceNoise}};
+                         {"relativeNoise", scene.referenceNoise},
+                         {"noiseFloor", numbers(scene.noiseFloor)}};
     json["ratioProbes"] = {{"used", scene.truth.probes.size()},
                            {"inWalls", scene.truth.inWalls},
                            {"dark", scene.truth.dark},

@@ -1,6 +1,8 @@
 #include "report_render.h"
 
 #include <chrono>
+#include <glm/common.hpp>
+#include <random>
 
 #include "render_stats.h"
 
@@ -39,6 +41,16 @@ double relativeNoise(const ReferencePicture& reference) {
         value += double(v.x) + v.y + v.z;
     }
     return value > 0 ? error / value : 0;
+}
+
+/// The reference with as much noise again as its standard error says that it has.
+HdrImage noisyTwin(const ReferencePicture& reference, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<float> normal;
+    HdrImage twin = reference.picture.color;
+    for (std::size_t i = 0; i < twin.pixels.size(); ++i)
+        twin.pixels[i] = glm::max(twin.pixels[i] + reference.standardError.pixels[i] * normal(random), 0.0f);
+    return twin;
 }
 
 Result<FieldResult> runField(Field& field, const Tracer& tracer, const Lighting& lighting,
@@ -121,6 +133,9 @@ Result<void> drawReference(const PathTracer& pathTracer, const LoadedSetup& setu
     scene.referenceSamples = reference->samplesPerPixel;
     scene.referenceSeconds = reference->seconds;
     scene.referenceNoise = relativeNoise(*reference);
+    const auto floor = compareImages(noisyTwin(*reference, settings.seed), reference->picture.color, {setup.exposure});
+    if (!floor) return tl::unexpected(floor.error());
+    scene.noiseFloor = floor->difference;
     scene.reference = std::move(reference->picture);
     return {};
 }

@@ -18,7 +18,7 @@ struct ReportSettings {
     bool diffuseOnly = false;
     int raysPerProbe = FieldDesc{}.raysPerProbe;
     std::optional<int> frames;  ///< updates of a field; empty: until converged
-    double seconds = 30;        ///< of the reference; 0: no limit
+    double seconds = 45;        ///< of the reference; 0: no limit
     int samplesPerPixel = 0;    ///< of the reference; 0: no limit
     int ratioProbes = 128;      ///< probes that are compared with the reference
     int ratioSamples = 256;     ///< paths per probe and direction
@@ -53,7 +53,8 @@ struct RenderedScene {
     Picture reference;
     int referenceSamples = 0;
     double referenceSeconds = 0;
-    double referenceNoise = 0;  ///< mean standard error over mean luminance of the picture
+    double referenceNoise = 0;   ///< mean standard error over mean value of the picture
+    ImageDifference noiseFloor;  ///< what an exact picture would score against this reference, for its noise
     ProbeTruth truth;
 };
 

@@ -31,9 +31,9 @@ ReportTable wholeTable(const RenderedScene& scene) {
             {"", "RMSE", "relMSE", "FLIP"},
             {differenceRow("No GI", scene.none.whole.difference),
              differenceRow("Leaking field", scene.leaky.whole.difference),
-             differenceRow("Field", scene.ddgi.whole.difference)},
-            fmt::format("The reference has noise of its own: its standard error is {} of its mean at {} samples a "
-                        "pixel.",
+             differenceRow("Field", scene.ddgi.whole.difference), differenceRow("An exact picture", scene.noiseFloor)},
+            fmt::format("The reference has noise, so even an exact picture would not score 0: its standard error is "
+                        "{} of its mean at {} samples a pixel.",
                         percent(scene.referenceNoise), grouped(std::size_t(scene.referenceSamples)))};
 }
 
