@@ -35,16 +35,15 @@ public:
     int width() const { return m_width; }
     int height() const { return m_height; }
 
-    /// `out` has width x height x the format's bytes. A file that ends early is damaged; other oddities that the
-    /// decoder only warns of are common in the wild and harmless.
+    /// `out` has width x height x the format's bytes. Whatever the decoder so much as warns of is damage, but for
+    /// padding between segments, which some programs write.
     void decode(std::span<std::uint8_t> out, TJPF format) {
         // Progressive pictures of a thousand scans would take hours.
         const int result = tjDecompress2(m_handle.get(), m_bytes.data(), m_bytes.size(), out.data(), m_width, 0,
                                          m_height, format, TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS);
         if (result == 0) return;
         const std::string_view message = tjGetErrorStr2(m_handle.get());
-        const bool cutOff = message.find("Premature") != std::string_view::npos;
-        if (tjGetErrorCode(m_handle.get()) != TJERR_WARNING || cutOff) refuseDamaged();
+        if (message.find("extraneous bytes before marker") == std::string_view::npos) refuseDamaged();
     }
 
 private:

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <climits>
 #include <cmath>
+#include <cstring>
 #include <memory>
 
 #include "io/image_codec.h"
@@ -35,11 +37,38 @@ Size checkedSize(Bytes bytes, const char* format) {
     Size size;
     int channels = 0;
     if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &size.width, &size.height, &channels)) {
-        refuseDamaged(format);
+        refuseMalformed("is not a readable {}: its header is damaged or claims over 2^28 pixels; save it again",
+                        format);
     }
     checkImageSize(size.width, size.height, bytes.size());
     return size;
 }
+
+/// Feeds stb's .hdr reader. Past the end stb would read zeros, which it takes for runs of no pixels and repeats for
+/// ever; it gets ones instead, which make it stop, and a note is kept that it asked.
+struct HdrSource {
+    Bytes bytes;
+    std::size_t at = 0;
+    bool pastEnd = false;
+
+    static int read(void* user, char* out, int count) {
+        auto& source = *static_cast<HdrSource*>(user);
+        if (source.at >= source.bytes.size()) {
+            source.pastEnd = true;
+            std::memset(out, 0xff, std::size_t(count));
+            return count;
+        }
+        const std::size_t some = std::min(std::size_t(count), source.bytes.size() - source.at);
+        std::memcpy(out, source.bytes.data() + source.at, some);
+        source.at += some;
+        return int(some);
+    }
+    static void skip(void* user, int count) { static_cast<HdrSource*>(user)->at += std::size_t(count); }
+    static int atEnd(void* user) {
+        const auto& source = *static_cast<const HdrSource*>(user);
+        return source.at >= source.bytes.size();
+    }
+};
 
 void appendBytes(void* context, void* data, int size) {
     const auto* bytes = static_cast<const std::uint8_t*>(data);
@@ -51,9 +80,12 @@ void appendBytes(void* context, void* data, int size) {
 
 HdrImage decodeHdr(Bytes bytes) {
     Size size = checkedSize(bytes, "Radiance .hdr");
+    HdrSource source{bytes};
+    const stbi_io_callbacks callbacks{HdrSource::read, HdrSource::skip, HdrSource::atEnd};
     int channels = 0;
     const StbPixels<float> pixels(
-        stbi_loadf_from_memory(bytes.data(), int(bytes.size()), &size.width, &size.height, &channels, 3));
+        stbi_loadf_from_callbacks(&callbacks, &source, &size.width, &size.height, &channels, 3));
+    if (source.pastEnd) refuseMalformed("is a Radiance .hdr picture that ends too early; save it again");
     if (!pixels) refuseDamaged("Radiance .hdr");
     HdrImage image(size.width, size.height);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
