@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "probegi/builtin_scenes.h"
@@ -17,7 +18,7 @@ constexpr int kPointsPerSide = 16;  ///< on each wall
 constexpr std::array<float, 4> kShifts{0.0f, 0.25f, 0.5f, 0.75f};
 constexpr int kUpdates = 24;
 
-/// Points spread over the inner faces of a box, looking inwards.
+/// Points spread over the inner faces of a box, seen from its middle.
 std::vector<FieldQuery> wallPoints(glm::vec3 lower, glm::vec3 upper) {
     std::vector<FieldQuery> points;
     for (int axis = 0; axis < 3; ++axis)
@@ -29,7 +30,8 @@ std::vector<FieldQuery> wallPoints(glm::vec3 lower, glm::vec3 upper) {
                 share[(axis + 2) % 3] = (float(i / kPointsPerSide) + 0.5f) / kPointsPerSide;
                 glm::vec3 normal(0);
                 normal[axis] = far ? -1.0f : 1.0f;
-                points.push_back({lower + share * (upper - lower), normal, normal});
+                const glm::vec3 position = lower + share * (upper - lower);
+                points.push_back({position, normal, glm::normalize(0.5f * (lower + upper) - position)});
             }
     return points;
 }
