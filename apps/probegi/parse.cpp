@@ -13,6 +13,7 @@ namespace probegi::tool {
 namespace {
 
 constexpr int kMaxSide = 16384;
+constexpr float kMaxMagnitude = 1e12f;  // products of two of these are still finite
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
     std::vector<std::string_view> parts;
@@ -45,10 +46,10 @@ Result<std::vector<float>> parseNumbers(std::string_view text, std::size_t count
     std::vector<float> values(parts.size());
     bool good = parts.size() == count;
     for (std::size_t i = 0; good && i < parts.size(); ++i)
-        good = parseWhole(parts[i], values[i]) && std::isfinite(values[i]);
+        good = parseWhole(parts[i], values[i]) && std::abs(values[i]) <= kMaxMagnitude;
     if (!good)
-        return expected(text, count == 1 ? std::string("a finite number")
-                                         : fmt::format("{} finite numbers with commas between them", count));
+        return expected(text, count == 1 ? std::string("a finite number up to 1e12")
+                                         : fmt::format("{} finite numbers up to 1e12 with commas between them", count));
     return values;
 }
 

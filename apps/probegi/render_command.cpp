@@ -71,7 +71,9 @@ Result<std::optional<Field>> makeField(const Context& context, const Tracer& tra
         if (!done) return tl::unexpected(done.error());
         return std::move(*field);
     }
+    LoopProgress progress("updating probes", *options.frames);
     for (int frame = 0; frame < *options.frames; ++frame) {
+        progress.done(frame);
         const auto times = field->update(tracer, setup.lighting);
         if (!times) return tl::unexpected(times.error());
         record(*times);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -27,9 +29,22 @@ bool hasEmission(const Scene& scene, const ScenePose& pose) {
     return false;
 }
 
+// Pictures of skies often go a little below zero at saturated colours; what is no number at all is refused.
+Result<void> cleanSky(HdrImage& image, const std::string& path) {
+    for (glm::vec3& pixel : image.pixels) {
+        if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y) || !std::isfinite(pixel.z))
+            return fail(ErrorCode::malformed,
+                        fmt::format("--sky '{}' holds infinite or undefined values; repair the picture", path));
+        pixel = glm::max(pixel, glm::vec3(0.0f));
+    }
+    return {};
+}
+
 Result<Sky> parseSky(const std::string& text) {
     Sky sky;
     if (const auto color = parseVector(text)) {
+        if (color->x < 0 || color->y < 0 || color->z < 0)
+            return fail(ErrorCode::invalidArgument, fmt::format("--sky '{}' is negative; radiance is 0 or more", text));
         sky.radiance = *color;
         return sky;
     }
@@ -37,6 +52,7 @@ Result<Sky> parseSky(const std::string& text) {
     if (!image)
         return fail(image.error().code,
                     fmt::format("--sky is neither R,G,B nor a readable picture: {}", image.error().message));
+    if (const auto clean = cleanSky(*image, text); !clean) return tl::unexpected(clean.error());
     sky.radiance = glm::vec3(1.0f);
     sky.image = std::move(*image);
     return sky;

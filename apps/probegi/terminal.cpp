@@ -4,9 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
-#include <memory>
-#include <string>
 
 namespace probegi::tool {
 
@@ -74,6 +73,27 @@ Result<Context> makeContext(int threads) {
             return true;
         };
     return Context::create(desc);
+}
+
+struct LoopProgress::Impl {
+    std::string stage;
+    int total;
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    ProgressBar bar = {};
+};
+
+LoopProgress::LoopProgress(std::string stage, int total)
+    : m_impl(isatty(STDERR_FILENO) ? std::make_unique<Impl>(Impl{std::move(stage), total}) : nullptr) {}
+
+LoopProgress::~LoopProgress() {
+    if (m_impl) m_impl->bar.clear();
+}
+
+void LoopProgress::done(int count) {
+    if (!m_impl || count <= 0) return;
+    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - m_impl->start).count();
+    const double fraction = double(count) / double(m_impl->total);
+    m_impl->bar.draw({m_impl->stage, std::min(fraction, 0.999), elapsed, elapsed / fraction - elapsed});
 }
 
 void printWarning(std::string_view sentence) {

@@ -23,16 +23,19 @@ TEST(Inspect, ScenesListsAllOfThem) {
 TEST(Inspect, InfoOfEveryBuiltinScene) {
     for (const BuiltinScene& scene : builtinScenes()) {
         const std::string name = "builtin:" + std::string(scene.name);
-        const ToolRun text = runTool({"info", name});
-        EXPECT_EQ(text.exitCode, 0) << name;
-        for (const char* word : {"triangles", "materials", "bounds", "lights", "cameras", "probe grid"})
-            EXPECT_THAT(text.out, HasSubstr(word)) << name;
         const auto info = nlohmann::json::parse(runTool({"info", name, "--json"}).out);
         EXPECT_GT(info["triangles"], 0) << name;
         EXPECT_TRUE(info["lit"]) << name;
         EXPECT_GT(info["grid"]["probes"], 0) << name;
         EXPECT_TRUE(info["warnings"].empty()) << name;
     }
+}
+
+TEST(Inspect, InfoAsText) {
+    const ToolRun text = runTool({"info", "builtin:sphere"});
+    EXPECT_EQ(text.exitCode, 0);
+    for (const char* word : {"triangles", "materials", "bounds", "lights", "point", "cameras", "inside", "probe grid"})
+        EXPECT_THAT(text.out, HasSubstr(word));
 }
 
 TEST(Inspect, CompareMeasuresAndDraws) {

@@ -41,7 +41,8 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{"--seed", "x"}, std::pair{"--threads", "-1"}, std::pair{"--threads", "1025"},
                     std::pair{"--aov", "beauty"}, std::pair{"--exposure", "0"}, std::pair{"--exposure", "inf"},
                     std::pair{"--antialias", "9"}, std::pair{"--sun", "0,-1,0"}, std::pair{"--sun", "0,0,0,5"},
-                    std::pair{"--sun", "0,-1,0,-5"}, std::pair{"--sun", "0,-1,0,nan"}, std::pair{"--point", "1,2,3"},
+                    std::pair{"--sun", "0,-1,0,-5"}, std::pair{"--sun", "0,-1,0,nan"},
+                    std::pair{"--sun", "0,-1,0,1e30"}, std::pair{"--point", "1,2,3"},
                     std::pair{"--point", "1,2,3,-1,0,0"}, std::pair{"--point", "1,2,3,a,0,0"},
                     std::pair{"--look-from", "1,2"}, std::pair{"--look-at", "1,2,"}, std::pair{"--fov", "0"},
                     std::pair{"--fov", "180"}, std::pair{"--volume", "0,0,0:1"}, std::pair{"--volume", "0,0,0:0:4x4x4"},
@@ -121,6 +122,7 @@ TEST(Runtime, BadFilesAreRefusedBeforeAnythingIsWritten) {
     expectRefused({"render", "builtin:cornell", "-o", out, "--camera", "backdoor"}, "backdoor", 1);
     expectRefused({"render", "builtin:cornell", "-o", out, "--camera", "99"}, "99", 1);
     expectRefused({"render", "builtin:cornell", "-o", out, "--sky", "blue"}, "--sky", 1);
+    expectRefused({"render", "builtin:cornell", "-o", out, "--sky", "-1,0,0"}, "negative", 1);
     expectRefused({"render", "builtin:cornell", "-o", out, "--look-from", "1,1,1", "--look-at", "1,1,1"}, "--look-at",
                   1);
     expectRefused({"compare", "nowhere.exr", "nowhere.exr"}, "nowhere.exr", 1);
