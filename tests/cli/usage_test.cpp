@@ -21,10 +21,10 @@ void expectRefused(const std::vector<std::string>& arguments, const std::string&
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
-class BadValue : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+class BadValue : public testing::TestWithParam<std::pair<std::string, std::string>> {};
 
 TEST_P(BadValue, IsRefusedWithOneSentenceThatNamesTheOption) {
-    const auto [option, value] = GetParam();
+    const auto& [option, value] = GetParam();
     const TemporaryFolder folder;
     expectRefused({"render", "builtin:cornell", "-o", folder.file("a.png"), option, value}, option, 2);
     EXPECT_EQ(folder.entries(), 0u);
@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{"--time-of-scene", "late"}, std::pair{"--wall", "1"}, std::pair{"--albedo", "1"},
                     std::pair{"--emission", "-1"}, std::pair{"--power", "0"}, std::pair{"--radius", "0"}),
     [](const auto& instance) {
-        std::string name = instance.param.first + std::string("_") + std::to_string(instance.index);
+        std::string name = instance.param.first + "_" + std::to_string(instance.index);
         std::erase_if(name, [](char c) { return c == '-'; });
         return name;
     });
