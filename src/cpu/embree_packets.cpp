@@ -116,14 +116,11 @@ bool occludedOne(RTCScene scene, RTCIntersectContext* context, const Ray& ray) {
 
 }  // namespace
 
-EmbreePackets::EmbreePackets(RTCScene scene, float originSpread) : m_scene(scene), m_originSpread(originSpread) {
+EmbreePackets::EmbreePackets(RTCScene scene, float originSpread, bool instanced)
+    : m_scene(scene), m_originSpread(originSpread), m_instanced(instanced) {
     rtcInitIntersectContext(&m_incoherent);
     rtcInitIntersectContext(&m_coherent);
     m_coherent.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-}
-
-RTCIntersectContext* EmbreePackets::contextFor(const RTCRay16& rays) {
-    return coherent(rays, m_originSpread) ? &m_coherent : &m_incoherent;
 }
 
 void EmbreePackets::closestHits(std::span<const Ray> rays, std::span<Hit> hits) {
@@ -141,7 +138,8 @@ void EmbreePackets::closestHits(std::span<const Ray> rays, std::span<Hit> hits) 
         findUsable(packet.ray, count, valid);
         std::fill_n(packet.hit.geomID, kWidth, RTC_INVALID_GEOMETRY_ID);
         std::fill_n(packet.hit.instID[0], kWidth, RTC_INVALID_GEOMETRY_ID);
-        rtcIntersect16(valid, m_scene, contextFor(packet.ray), &packet);
+        const bool together = coherent(packet.ray, m_originSpread);
+        rtcIntersect16(valid, m_scene, together ? &m_coherent : &m_incoherent, &packet);
         store(packet, hits.subspan(i, count));
     }
 }
@@ -159,7 +157,8 @@ void EmbreePackets::occluded(std::span<const Ray> rays, std::span<std::uint8_t> 
         const std::span<const Ray> batch = rays.subspan(i, count);
         load(packet, batch);
         findUsable(packet, count, valid);
-        rtcOccluded16(valid, m_scene, contextFor(packet), &packet);
+        const bool together = !m_instanced && coherent(packet, m_originSpread);
+        rtcOccluded16(valid, m_scene, together ? &m_coherent : &m_incoherent, &packet);
         for (std::size_t k = 0; k < count; ++k) blocked[i + k] = valid[k] != 0 && packet.tfar[k] < 0.0f;
     }
 }

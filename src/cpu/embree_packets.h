@@ -15,16 +15,17 @@ namespace probegi {
 class EmbreePackets {
 public:
     /// @param originSpread  metres; rays whose origins lie within it may count as coherent, where directions agree too
-    EmbreePackets(RTCScene scene, float originSpread);
+    /// @param instanced  whether the scene holds instances: coherent occlusion is then left alone, because with
+    ///                   AVX-512 Embree 3.13 reads an uninitialised lane mask there and can loop for ever
+    EmbreePackets(RTCScene scene, float originSpread, bool instanced);
 
     void closestHits(std::span<const Ray> rays, std::span<Hit> hits);
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked);
 
 private:
-    RTCIntersectContext* contextFor(const RTCRay16& rays);
-
     RTCScene m_scene;
     float m_originSpread;
+    bool m_instanced;
     RTCIntersectContext m_incoherent;
     RTCIntersectContext m_coherent;
 };

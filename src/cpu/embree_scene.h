@@ -38,6 +38,7 @@ public:
     const SurfaceGroup& group(const Placement& placement) const noexcept {
         return m_groups[std::size_t(placement.group)];
     }
+    bool instanced() const noexcept { return !m_placements.empty(); }
     /// By Hit::instance.
     const Placement& placement(int instance) const noexcept {
         return m_placements[std::size_t(instance) - kFirstInstance];

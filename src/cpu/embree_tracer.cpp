@@ -20,12 +20,12 @@ public:
 
     void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override {
         assert(rays.size() == hits.size());
-        EmbreePackets(m_scene->handle(), m_originSpread).closestHits(rays, hits);
+        packets().closestHits(rays, hits);
     }
 
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override {
         assert(rays.size() == blocked.size());
-        EmbreePackets(m_scene->handle(), m_originSpread).occluded(rays, blocked);
+        packets().occluded(rays, blocked);
     }
 
     void surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const override {
@@ -37,6 +37,8 @@ public:
     Bounds bounds() const override { return m_scene->bounds(); }
 
 private:
+    EmbreePackets packets() const { return {m_scene->handle(), m_originSpread, m_scene->instanced()}; }
+
     Surface surface(const Ray& ray, const Hit& hit) const {
         if (hit.instance < 0)
             return shadeHit(m_scene->world().mesh(hit.geometry), m_scene->materials(), hit, ray.direction);

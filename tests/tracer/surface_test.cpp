@@ -1,0 +1,265 @@
+// What a hit looks like: sides, normals, normal maps and material textures.
+#include <cmath>
+#include <limits>
+
+#include "tracer/tracer_scene.h"
+
+namespace probegi::test {
+
+namespace {
+
+const Ray kDown = rayAlong({0.2f, 1, 0.3f}, {0, -1, 0});
+const Ray kUp = rayAlong({0.2f, -1, 0.3f}, {0, 1, 0});
+
+Material glowing() {
+    Material m;
+    m.baseColor = {0.25f, 0.5f, 0.75f, 1.0f};
+    m.emission = {3, 2, 1};
+    m.metallic = 0.125f;
+    m.roughness = 0.375f;
+    return m;
+}
+
+std::vector<std::uint8_t> uniform(std::uint8_t r, std::uint8_t g, std::uint8_t b) {
+    return {r, g, b, 255};
+}
+
+/// A quad whose normal map holds one code everywhere.
+TestScene mappedQuad(glm::u8vec3 code, float scale = 1.0f) {
+    TestScene s;
+    Material m;
+    m.normalTexture.image = s.addImage(1, 1, uniform(code.x, code.y, code.z));
+    m.normalScale = scale;
+    s.addMesh(quad(s.addMaterial(m)));
+    return s;
+}
+
+/// What a normal map's code means in its frame.
+glm::vec3 decode(glm::u8vec3 code) {
+    return glm::normalize(glm::vec3(code) * (2.0f / 255.0f) - 1.0f);
+}
+
+}  // namespace
+
+TEST(Surface, FrontOfASingleSidedMaterial) {
+    TestScene s;
+    s.add(quad(s.addMaterial(glowing())));
+    const Shot shot = shoot(*s.trace(), kDown);
+    EXPECT_FALSE(shot.surface.backface);
+    EXPECT_EQ(shot.surface.material, 1);
+    EXPECT_EQ(shot.surface.albedo, glm::vec3(0.25f, 0.5f, 0.75f));
+    EXPECT_EQ(shot.surface.emission, glm::vec3(3, 2, 1));
+    EXPECT_EQ(shot.surface.metallic, 0.125f);
+    EXPECT_EQ(shot.surface.roughness, 0.375f);
+    expectNear(shot.surface.position, {0.2f, 0, 0.3f}, 1e-6f);
+    expectNear(shot.surface.shadingNormal, {0, 1, 0}, 1e-6f);
+}
+
+TEST(Surface, BackOfASingleSidedMaterialIsBlack) {
+    TestScene s;
+    s.add(quad(s.addMaterial(glowing())));
+    const Shot shot = shoot(*s.trace(), kUp);
+    ASSERT_TRUE(shot.hit.valid()) << "backs are not culled";
+    EXPECT_TRUE(shot.blocked);
+    EXPECT_TRUE(shot.surface.backface);
+    EXPECT_EQ(shot.surface.albedo, glm::vec3(0));
+    EXPECT_EQ(shot.surface.emission, glm::vec3(0));
+    expectNear(shot.surface.geometricNormal, {0, -1, 0}, 1e-6f);
+    expectNear(shot.surface.shadingNormal, {0, -1, 0}, 1e-6f);
+}
+
+TEST(Surface, DoubleSidedMaterialsHaveNoBack) {
+    TestScene s;
+    Material m = glowing();
+    m.doubleSided = true;
+    s.add(quad(s.addMaterial(m)));
+    const Shot shot = shoot(*s.trace(), kUp);
+    EXPECT_FALSE(shot.surface.backface);
+    EXPECT_EQ(shot.surface.albedo, glm::vec3(0.25f, 0.5f, 0.75f));
+    EXPECT_EQ(shot.surface.emission, glm::vec3(3, 2, 1));
+    expectNear(shot.surface.geometricNormal, {0, -1, 0}, 1e-6f);
+}
+
+TEST(Surface, MirroredPlacementsKeepTheirFront) {
+    const glm::mat4 mirror = glm::scale(glm::mat4(1.0f), glm::vec3(-1, 1, 1));
+    for (const bool shared : {false, true}) {
+        TestScene s;
+        const int mesh = s.addMesh(quad());
+        s.place(mesh, mirror);
+        if (shared) s.place(mesh, glm::translate(mirror, glm::vec3(10, 0, 0)));
+        const auto tracer = s.trace();
+        EXPECT_EQ(shoot(*tracer, kDown).hit.instance >= 0, shared);
+        EXPECT_FALSE(shoot(*tracer, kDown).surface.backface);
+        EXPECT_TRUE(shoot(*tracer, kUp).surface.backface);
+        expectNear(shoot(*tracer, kDown).surface.geometricNormal, {0, 1, 0}, 1e-6f);
+    }
+}
+
+TEST(Surface, NormalsFollowNonUniformScale) {
+    // The plane y = x, stretched twofold along x, becomes y = x / 2.
+    Primitive slope = quad();
+    for (glm::vec3& p : slope.positions) p.y = p.x;
+    slope.normals.assign(4, glm::normalize(glm::vec3(-1, 1, 0)));
+    const glm::mat4 stretch = glm::scale(glm::mat4(1.0f), glm::vec3(2, 1, 1));
+    for (const bool shared : {false, true}) {
+        TestScene s;
+        const int mesh = s.addMesh(slope);
+        s.place(mesh, stretch);
+        if (shared) s.place(mesh, glm::translate(stretch, glm::vec3(0, 0, 10)));
+        const Shot shot = shoot(*s.trace(), rayAlong({0.5f, 5, 0}, {0, -1, 0}));
+        const glm::vec3 expected = glm::normalize(glm::vec3(-1, 2, 0));
+        expectNear(shot.surface.geometricNormal, expected, 1e-5f);
+        expectNear(shot.surface.shadingNormal, expected, 1e-5f);
+        expectNear(shot.surface.position, {0.5f, 0.25f, 0}, 1e-5f);
+    }
+}
+
+TEST(Surface, NormalsAreInterpolated) {
+    Primitive p = quad();
+    p.normals = {glm::normalize(glm::vec3(-1, 1, 0)), glm::normalize(glm::vec3(-1, 1, 0)),
+                 glm::normalize(glm::vec3(1, 1, 0)), glm::normalize(glm::vec3(1, 1, 0))};
+    TestScene s;
+    s.add(p);
+    const auto tracer = s.trace();
+    expectNear(shoot(*tracer, rayAlong({0, 1, 0.1f}, {0, -1, 0})).surface.shadingNormal, {0, 1, 0}, 1e-6f);
+    const glm::vec3 half = shoot(*tracer, rayAlong({0.5f, 1, 0.1f}, {0, -1, 0})).surface.shadingNormal;
+    expectNear(half, glm::normalize(glm::vec3(0.5f, 1, 0)), 1e-5f);
+}
+
+TEST(Surface, NormalsAgainstTheWindingTurnToIt) {
+    Primitive p = quad();
+    p.normals.assign(4, {0, -1, 0});
+    TestScene s;
+    s.add(p);
+    const auto tracer = s.trace();
+    EXPECT_FALSE(shoot(*tracer, kDown).surface.backface) << "the winding decides";
+    expectNear(shoot(*tracer, kDown).surface.shadingNormal, {0, 1, 0}, 1e-6f);
+}
+
+TEST(Surface, ShadingNormalsThatFaceAwayAreBent) {
+    Primitive p = quad();
+    p.normals.assign(4, glm::normalize(glm::vec3(1, 0.2f, 0)));
+    TestScene s;
+    s.add(p);
+    const Ray grazing = rayAlong({-0.9f, 0.5f, 0.1f}, {1, -0.6f, 0});
+    const Shot shot = shoot(*s.trace(), grazing);
+    ASSERT_TRUE(shot.hit.valid());
+    const float cosine = glm::dot(shot.surface.shadingNormal, -grazing.direction);
+    EXPECT_GT(cosine, 0.0f);
+    EXPECT_LT(cosine, 0.01f) << "no further than needed";
+    EXPECT_NEAR(glm::length(shot.surface.shadingNormal), 1.0f, 1e-5f);
+    expectNear(shot.surface.geometricNormal, {0, 1, 0}, 1e-6f);
+}
+
+TEST(Surface, NormalMapPointsAlongTheImage) {
+    // Red leans the normal towards +u, which is +x here; green towards the image's top, which is -z.
+    const glm::u8vec3 code(180, 200, 230);
+    const glm::vec3 n = decode(code);
+    TestScene s = mappedQuad(code);
+    s.place(0);
+    expectNear(shoot(*s.trace(), kDown).surface.shadingNormal, {n.x, n.z, -n.y}, 1e-5f);
+    expectNear(shoot(*s.trace(), kDown).surface.geometricNormal, {0, 1, 0}, 1e-6f);
+}
+
+TEST(Surface, NormalMapWithTangentsOfTheFile) {
+    const glm::u8vec3 code(180, 200, 230);
+    const glm::vec3 n = decode(code);
+    TestScene s = mappedQuad(code);
+    // Tangent along +z and a bitangent to the other side: n = x T + y B, B = cross(+y, +z) * -1 = -x.
+    s.scene.meshes[0].primitives[0].tangents.assign(4, {0, 0, 1, -1});
+    s.scene.meshes[0].primitives[0].normals.assign(4, {0, 1, 0});
+    s.place(0);
+    expectNear(shoot(*s.trace(), kDown).surface.shadingNormal, {-n.y, n.z, n.x}, 1e-5f);
+}
+
+TEST(Surface, NormalMapFollowsPlacements) {
+    const glm::u8vec3 code(180, 200, 230);
+    const glm::vec3 n = decode(code);
+    for (const bool given : {false, true}) {
+        for (const bool shared : {false, true}) {
+            TestScene s = mappedQuad(code);
+            if (given) s.scene.meshes[0].primitives[0].tangents.assign(4, {1, 0, 0, 1});
+            if (given) s.scene.meshes[0].primitives[0].normals.assign(4, {0, 1, 0});
+            const glm::mat4 mirror = glm::scale(glm::mat4(1.0f), glm::vec3(-1, 1, 1));
+            s.place(0, mirror);
+            if (shared) s.place(0, glm::translate(mirror, glm::vec3(10, 0, 0)));
+            expectNear(shoot(*s.trace(), kDown).surface.shadingNormal, {-n.x, n.z, -n.y}, 1e-5f);
+        }
+    }
+}
+
+TEST(Surface, NormalScaleFlattens) {
+    TestScene s = mappedQuad({255, 128, 128}, 0.0f);
+    s.place(0);
+    expectNear(shoot(*s.trace(), kDown).surface.shadingNormal, {0, 1, 0}, 1e-6f);
+}
+
+TEST(Surface, NormalMapWithoutUvsStaysFinite) {
+    TestScene s = mappedQuad({180, 200, 230});
+    s.scene.meshes[0].primitives[0].uv0.assign(4, {0.5f, 0.5f});
+    s.place(0);
+    const glm::vec3 normal = shoot(*s.trace(), kDown).surface.shadingNormal;
+    EXPECT_NEAR(glm::length(normal), 1.0f, 1e-5f);
+    EXPECT_GT(normal.y, 0.0f);
+}
+
+TEST(Surface, TexturesMultiplyTheFactors) {
+    TestScene s;
+    Material m = glowing();
+    m.metallic = m.roughness = 0.5f;
+    m.baseColorTexture.image = s.addImage(1, 1, uniform(188, 255, 0));
+    m.metallicRoughnessTexture.image = s.addImage(1, 1, uniform(255, 51, 102));
+    m.emissiveTexture.image = s.addImage(1, 1, uniform(255, 188, 0));
+    s.add(quad(s.addMaterial(m)));
+    const Surface surface = shoot(*s.trace(), kDown).surface;
+    expectNear(surface.albedo, {0.25f * 0.502887f, 0.5f, 0}, 1e-5f);
+    EXPECT_FLOAT_EQ(surface.roughness, 0.5f * 0.2f);
+    EXPECT_FLOAT_EQ(surface.metallic, 0.5f * 0.4f);
+    expectNear(surface.emission, {3, 2 * 0.502887f, 0}, 1e-5f);
+}
+
+TEST(Surface, UvIsThatOfTheHit) {
+    TestScene s;
+    Material m;
+    m.baseColorTexture.image = s.addImage(2, 2, {0, 0, 0, 255, 255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255});
+    m.baseColorTexture.nearest = true;
+    s.add(quad(s.addMaterial(m)));
+    const auto tracer = s.trace();
+    const auto albedo = [&](float x, float z) {
+        return shoot(*tracer, rayAlong({x, 1, z}, {0, -1, 0})).surface.albedo;
+    };
+    EXPECT_EQ(albedo(-0.5f, -0.4f), glm::vec3(0, 0, 0));
+    EXPECT_EQ(albedo(0.5f, -0.4f), glm::vec3(1, 0, 0));
+    EXPECT_EQ(albedo(-0.5f, 0.4f), glm::vec3(0, 1, 0));
+    EXPECT_EQ(albedo(0.5f, 0.4f), glm::vec3(0, 0, 1));
+}
+
+TEST(Surface, SecondUvSet) {
+    TestScene s;
+    s.add(quad(), glm::translate(glm::mat4(1.0f), glm::vec3(5, 0, 0)));  // vertices before those with a second set
+    Material m;
+    m.baseColorTexture.image = s.addImage(2, 1, {0, 0, 0, 255, 255, 0, 0, 255});
+    m.baseColorTexture.nearest = true;
+    m.baseColorTexture.texCoord = 1;
+    Primitive p = quad(s.addMaterial(m));
+    p.uv1.assign(4, {0.75f, 0.5f});
+    s.add(p);
+    s.add(quad(), glm::translate(glm::mat4(1.0f), glm::vec3(-5, 0, 0)));
+    EXPECT_EQ(shoot(*s.trace(), rayAlong({-0.5f, 1, 0.1f}, {0, -1, 0})).surface.albedo, glm::vec3(1, 0, 0));
+}
+
+TEST(Surface, MissedRaysLeaveTheirEntry) {
+    TestScene s;
+    s.add(quad());
+    const auto tracer = s.trace();
+    const Ray rays[2] = {rayAlong({9, 1, 9}, {0, -1, 0}), kDown};
+    Hit hits[2];
+    Surface surfaces[2];
+    surfaces[0].position = {7, 7, 7};
+    tracer->closestHits(rays, hits);
+    tracer->surfaces(rays, hits, surfaces);
+    EXPECT_EQ(surfaces[0].position, glm::vec3(7));
+    EXPECT_EQ(surfaces[1].position.y, 0.0f);
+}
+
+}  // namespace probegi::test

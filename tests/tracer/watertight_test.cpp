@@ -1,0 +1,95 @@
+// No ray slips between the triangles of a closed mesh: a lost ray is leaking light.
+#include "tracer/tracer_scene.h"
+
+namespace probegi::test {
+
+namespace {
+
+constexpr std::size_t kBatch = 4096;
+
+struct Room {
+    TestScene s;
+    std::vector<glm::vec3> corners;  ///< all vertices, in world space
+    glm::mat4 toWorld;
+
+    explicit Room(bool instanced) {
+        std::mt19937 random(21);
+        toWorld = glm::rotate(glm::translate(glm::mat4(1.0f), glm::vec3(13, -7, 5)), 0.7f,
+                              glm::normalize(glm::vec3(1, 2, 3)));
+        toWorld = glm::scale(toWorld, glm::vec3(3, 2, 5));
+        const int mesh = s.addMesh(innerBox(8, random));
+        s.place(mesh, toWorld);
+        if (instanced) s.place(mesh, glm::translate(glm::mat4(1.0f), glm::vec3(100, 0, 0)));
+        for (const glm::vec3& p : s.scene.meshes[0].primitives[0].positions) corners.push_back(inWorld(p));
+    }
+    glm::vec3 inWorld(glm::vec3 p) const { return glm::vec3(toWorld * glm::vec4(p, 1.0f)); }
+};
+
+/// Shoots batches that `aim` fills and counts the rays that meet nothing, by either question.
+template <class Aim>
+std::size_t escapes(const Tracer& tracer, std::size_t batches, const Aim& aim) {
+    std::vector<Ray> rays(kBatch);
+    std::vector<Hit> hits(kBatch);
+    std::vector<std::uint8_t> blocked(kBatch);
+    std::size_t lost = 0;
+    for (std::size_t batch = 0; batch < batches; ++batch) {
+        aim(rays);
+        tracer.closestHits(rays, hits);
+        tracer.occluded(rays, blocked);
+        for (std::size_t i = 0; i < kBatch; ++i) lost += !hits[i].valid() || blocked[i] == 0 ? 1 : 0;
+    }
+    return lost;
+}
+
+}  // namespace
+
+TEST(Watertight, AMillionRandomRays) {
+    for (const bool instanced : {false, true}) {
+        const Room room(instanced);
+        const auto tracer = room.s.trace();
+        std::mt19937 random(22);
+        std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
+        const std::size_t lost = escapes(*tracer, 128, [&](std::vector<Ray>& rays) {
+            for (Ray& ray : rays) {
+                const glm::vec3 direction(uniform(random), uniform(random), uniform(random));
+                ray = rayAlong(room.inWorld(randomPoint(random, 0.95f)), direction);
+            }
+        });
+        EXPECT_EQ(lost, 0u) << (instanced ? "instanced" : "merged");
+    }
+}
+
+TEST(Watertight, RaysAtVerticesAndEdges) {
+    for (const bool instanced : {false, true}) {
+        const Room room(instanced);
+        const auto tracer = room.s.trace();
+        const std::vector<std::uint32_t>& indices = room.s.scene.meshes[0].primitives[0].indices;
+        std::mt19937 random(23);
+        std::uniform_int_distribution<std::size_t> pick(0, indices.size() / 3 - 1);
+        std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
+        const std::size_t lost = escapes(*tracer, 64, [&](std::vector<Ray>& rays) {
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                const std::size_t triangle = 3 * pick(random);
+                const glm::vec3 a = room.corners[indices[triangle]], b = room.corners[indices[triangle + 1]];
+                const glm::vec3 target = i % 2 == 0 ? a : a + (b - a) * uniform(random);
+                const glm::vec3 origin = room.inWorld(randomPoint(random, 0.95f));
+                rays[i] = rayAlong(origin, target - origin);
+            }
+        });
+        EXPECT_EQ(lost, 0u) << (instanced ? "instanced" : "merged");
+    }
+}
+
+TEST(Watertight, CoherentRowsOfRays) {
+    const Room room(false);
+    const auto tracer = room.s.trace();
+    std::mt19937 random(24);
+    const std::size_t lost = escapes(*tracer, 64, [&](std::vector<Ray>& rays) {
+        const glm::vec3 origin = room.inWorld(randomPoint(random, 0.95f));
+        const glm::vec3 forward = randomDirection(random), side = 0.0005f * randomDirection(random);
+        for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = rayAlong(origin, forward + float(i) * side);
+    });
+    EXPECT_EQ(lost, 0u);
+}
+
+}  // namespace probegi::test
