@@ -48,10 +48,21 @@ std::string filePrefix(const std::string& scene, std::set<std::string>& taken) {
     return unique;
 }
 
-std::string commandLine(const ReportOptions& options) {
-    std::string line = "probegi report " + options.scene.scene;
-    for (const std::string& scene : options.more) line += " " + scene;
-    return line + fmt::format(" -o {} --size {}", options.folder, options.size);
+/// The command as it was given, so that the reader of a page can make it again.
+std::string commandLine(const CLI::App& command) {
+    std::string line = "probegi " + command.get_name();
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->count() == 0) continue;
+        if (!option->get_positional()) line += " " + option->get_name();
+        if (option->get_expected_max() == 0) continue;
+        for (const std::string& value : option->results()) line += " " + value;
+    }
+    return line;
+}
+
+/// What a person calls the scene: the file's name without its folders.
+std::string sceneTitle(const std::string& scene) {
+    return scene.rfind("builtin:", 0) == 0 ? scene : fs::path(scene).filename().string();
 }
 
 ReportSettings settingsOf(const ReportOptions& options) {
@@ -88,7 +99,7 @@ Result<std::vector<LoadedSetup>> loadAll(const ReportOptions& options) {
     return setups;
 }
 
-Result<void> writeReport(const ReportOptions& options) {
+Result<void> writeReport(const ReportOptions& options, const CLI::App& command) {
     const fs::path folder(options.folder);
     const auto context = makeContext(options.scene.threads);
     if (!context) return tl::unexpected(context.error());
@@ -96,7 +107,7 @@ Result<void> writeReport(const ReportOptions& options) {
     if (!setups) return tl::unexpected(setups.error());
     if (auto made = makeFolder(folder); !made) return made;
 
-    Report report{"ProbeGI report", commandLine(options), legendColours(), {}};
+    Report report{"ProbeGI report", commandLine(command), legendColours(), {}};
     nlohmann::json numbers = nlohmann::json::array();
     std::set<std::string> taken;
     for (std::size_t i = 0; i < setups->size(); ++i) {
@@ -104,8 +115,8 @@ Result<void> writeReport(const ReportOptions& options) {
         const LoadedSetup& setup = (*setups)[i];
         const auto rendered = renderForReport(*context, setup, settingsOf(options));
         if (!rendered) return tl::unexpected(rendered.error());
-        auto section =
-            describeScene(*rendered, {folder, filePrefix(name, taken), name}, {setup.exposure, !options.plain});
+        auto section = describeScene(*rendered, {folder, filePrefix(name, taken), sceneTitle(name)},
+                                     {setup.exposure, !options.plain});
         if (!section) return tl::unexpected(section.error());
         report.scenes.push_back(std::move(*section));
         numbers.push_back(sceneNumbers(*rendered));
@@ -163,8 +174,8 @@ void addReportCommand(CLI::App& app, int& exitCode) {
     addSceneOptions(*command, options->scene);
     addReportOptions(*command, *options);
     command->footer(kFooter);
-    command->callback([options, &exitCode] {
-        if (const auto done = writeReport(*options); !done) exitCode = printError(done.error());
+    command->callback([options, command, &exitCode] {
+        if (const auto done = writeReport(*options, *command); !done) exitCode = printError(done.error());
     });
 }
 

@@ -10,7 +10,7 @@ namespace probegi::tool {
 namespace {
 
 std::string milliseconds(double ms) {
-    if (ms >= 10000) return fmt::format("{:.1f} s", ms / 1000);
+    if (ms >= 1000) return fmt::format("{:.2f} s", ms / 1000);
     return ms >= 100 ? fmt::format("{:.0f} ms", ms) : fmt::format("{:.2g} ms", ms);
 }
 
