@@ -19,7 +19,8 @@ glm::vec2 profileTangent(std::span<const glm::vec2> profile, std::size_t i) {
     const bool after = i + 1 < profile.size() && profile[i + 1] != profile[i];
     const glm::vec2 a = before ? profile[i - 1] : profile[i];
     const glm::vec2 b = after ? profile[i + 1] : profile[i];
-    return b - a;
+    // The middle one of three equal points: no triangle uses it.
+    return a == b ? glm::vec2(0, 1) : b - a;
 }
 
 }  // namespace
