@@ -1,7 +1,8 @@
 # The code that the README shows is the code of examples/first_light, which is compiled and run.
 file(READ ${EXAMPLE} example)
 string(REGEX MATCH "// \\[readme\\]\n(.*)    // \\[/readme\\]" found "${example}")
-string(REGEX REPLACE "(^|\n)    " "\\1" snippet "${CMAKE_MATCH_1}")
+string(REPLACE "\n    " "\n" snippet "\n${CMAKE_MATCH_1}")
+string(STRIP "${snippet}" snippet)
 if(snippet STREQUAL "")
     message(FATAL_ERROR "${EXAMPLE} has no part between [readme] and [/readme]")
 endif()
