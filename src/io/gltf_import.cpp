@@ -36,7 +36,9 @@ LoadedScene importGltf(std::span<const std::uint8_t> bytes, const std::filesyste
     std::size_t size = bytes.size();
     for (const tinygltf::Buffer& buffer : model.buffers) size += buffer.data.size();
     for (const tinygltf::Image& image : model.images) size += image.image.size();
-    Import import{model, out, Budget(size), Budget(size), {}, {}, {}, {}};
+    constexpr std::uint64_t kGeometryRoom = 64 << 20;
+    constexpr std::uint64_t kPixelRoom = 256 << 20;  // a plain picture of 4096 x 4096 fits into a few kilobytes
+    Import import{model, out, Budget(kGeometryRoom, size), Budget(kPixelRoom, size), {}, {}, {}, {}};
     importMaterials(import);
     importLights(import);
     importCameras(import);

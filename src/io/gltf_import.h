@@ -17,7 +17,7 @@ namespace probegi::io {
 /// kilobytes that name the same vertices or the same picture a thousand times fill any machine.
 class Budget {
 public:
-    explicit Budget(std::size_t fileBytes) : m_limit((std::uint64_t(256) << 20) + 64 * std::uint64_t(fileBytes)) {}
+    Budget(std::uint64_t room, std::uint64_t fileBytes) : m_limit(room + 64 * fileBytes) {}
 
     void charge(std::uint64_t bytes) {
         m_used += bytes;

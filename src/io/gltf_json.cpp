@@ -35,15 +35,28 @@ Bytes jsonOf(Bytes bytes) {
     return bytes.subspan(kJsonAt, length);
 }
 
-json parse(Bytes text) {
-    static constexpr int kMaxDepth = 64;  // real files have about 10; recursion over 100,000 would overflow the stack
-    const auto limitDepth = [](int depth, json::parse_event_t, json&) {
+/// tinygltf recurses into the JSON: real files are about 10 deep, 100,000 would overflow the stack. (The parser itself
+/// does not recurse; its own callback for this takes time that is quadratic in the length of an array.)
+void checkDepth(const json& root) {
+    constexpr int kMaxDepth = 64;
+    std::vector<const json*> level{&root};
+    for (int depth = 0; !level.empty(); ++depth) {
         if (depth > kMaxDepth) refuseMalformed("its JSON is nested more than {} deep", kMaxDepth);
-        return true;
-    };
+        std::vector<const json*> next;
+        for (const json* value : level) {
+            for (const json& child : *value) {
+                if (child.is_structured()) next.push_back(&child);
+            }
+        }
+        level = std::move(next);
+    }
+}
+
+json parse(Bytes text) {
     try {
-        json root = json::parse(text.begin(), text.end(), limitDepth);
+        json root = json::parse(text.begin(), text.end());
         if (!root.is_object()) refuseMalformed("its JSON is not an object");
+        checkDepth(root);
         return root;
     } catch (const json::parse_error& e) {
         refuseMalformed("is not glTF: its JSON breaks off at byte {}", e.byte);

@@ -80,7 +80,7 @@ TEST(GltfDraco, DamagedDataNeverCrashes) {
     const GltfBuilder whole = dracoScene();
     int refused = 0;
     for (std::size_t at = 0; at < whole.binary.size(); ++at) {
-        for (const std::uint8_t flip : {0x01, 0x80, 0xff}) {
+        for (const int flip : {0x01, 0x80, 0xff}) {
             GltfBuilder b = whole;
             b.binary[at] = std::uint8_t(b.binary[at] ^ flip);
             const auto loaded = read(b);
