@@ -4,9 +4,9 @@
 set -euo pipefail
 
 build_packages=(
-    g++ cmake ninja-build ccache pkg-config
+    g++ cmake ninja-build ccache
     libembree-dev libtbb-dev        # ray tracing, threads
-    libglm-dev libeigen3-dev libxsimd-dev  # vectors, matrix product, SIMD
+    libglm-dev libeigen3-dev            # vectors, matrix product
     libtinygltf-dev libdraco-dev libstb-dev libturbojpeg0-dev libopenexr-dev nlohmann-json3-dev  # files
     libcli11-dev libfmt-dev libexpected-dev
 )
