@@ -1,0 +1,56 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "markdown.h"
+
+namespace probegi::accuracy {
+namespace {
+
+using testing::HasSubstr;
+
+class AccuracyPage : public testing::Test {
+protected:
+    AccuracyPage() : m_path(testing::TempDir() + "accuracy-page-" + std::to_string(getpid()) + ".md") {}
+    ~AccuracyPage() override { std::filesystem::remove(m_path); }
+
+    void write(const std::string& text) { std::ofstream(m_path) << text; }
+    std::string read() const {
+        std::ifstream file(m_path);
+        return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    }
+
+    std::filesystem::path m_path;
+};
+
+TEST_F(AccuracyPage, onlyTheMeasuredPartIsReplaced) {
+    write("before\n<!-- measured: begin -->\nold\n<!-- measured: end -->\nafter\n");
+    ASSERT_TRUE(replaceBetweenMarkers(m_path, "new\n"));
+    EXPECT_EQ(read(), "before\n<!-- measured: begin -->\nnew\n<!-- measured: end -->\nafter\n");
+    ASSERT_TRUE(replaceBetweenMarkers(m_path, "newer\n"));
+    EXPECT_EQ(read(), "before\n<!-- measured: begin -->\nnewer\n<!-- measured: end -->\nafter\n");
+}
+
+TEST_F(AccuracyPage, withoutMarkersNothingIsWritten) {
+    write("a page by hand\n");
+    const auto done = replaceBetweenMarkers(m_path, "new\n");
+    ASSERT_FALSE(done);
+    EXPECT_THAT(done.error().message, HasSubstr("measured: begin"));
+    EXPECT_EQ(read(), "a page by hand\n");
+}
+
+TEST_F(AccuracyPage, missingPageIsAnError) {
+    EXPECT_FALSE(replaceBetweenMarkers(m_path, "new\n"));
+}
+
+TEST(AccuracyTables, leakInPercentAndCentimetres) {
+    const std::string text = accuracyTables({}, {{0.05f, {0.5, 0.75}, {0.004, 0.0061}}}, 2);
+    EXPECT_THAT(text, HasSubstr("| 5 cm | 50.00 % | 75.00 % | 0.400 % | 0.610 % |"));
+}
+
+}  // namespace
+}  // namespace probegi::accuracy
