@@ -38,9 +38,11 @@ struct MomentsGuard {
             (stdx::clamp(floorX, Real(-1.0f), Real(float(size - 1))) + 1.0f));
 
         const std::int32_t texelsPerProbe = size * size;
+        std::array<std::int32_t, kLanes> footprints;
+        footprint.copy_to(footprints.data(), stdx::element_aligned);
         alignas(64) std::array<std::array<std::uint32_t, kLanes>, 4> taps;
         for (int lane = 0; lane < kLanes; ++lane) {
-            const auto& table = (*view.visibilityTaps)[std::size_t(int(footprint[lane]))];
+            const auto& table = (*view.visibilityTaps)[std::size_t(footprints[lane])];
             const std::uint32_t* map = view.visibility + std::size_t(cage.probes[lane]) * texelsPerProbe;
             for (int tap = 0; tap < 4; ++tap) taps[tap][lane] = map[table[tap]];
         }
