@@ -34,7 +34,7 @@ struct FieldDesc {
     int visibilityTexels = 16;  ///< side of the octahedral visibility map, 4..64, even
     float hysteresis = 0.97f;   ///< share of the old irradiance that survives an update (alpha of eq. 1), 0..0.999
     float visibilityHysteresis = 0.97f;  ///< the same for distance moments, 0..0.999
-    float visibilityExponent = 50.0f;    ///< power of the cosine that weights distances, 1..500
+    float visibilityExponent = 100.0f;   ///< power of the cosine that weights distances, 1..500
     float selfShadowBias = 0.3f;         ///< TunableShadowBias of eq. 2, 0..2
     float significantChange = 0.25f;     ///< Listing 3, on encoded irradiance over its maximum; 0 disables
     float newDistribution = 0.8f;        ///< Listing 3, same scale; 0 disables
@@ -111,7 +111,7 @@ public:
     /// like 1 / k^3 while noise falls like 1 / sqrt(k), and the mean is unbiased.
     /// Returns the number of updates done. Errors: cancelled, invalidArgument.
     /// `onUpdate`, where given, receives the times of every update.
-    Result<int> converge(const Tracer& tracer, const Lighting& lighting, float tolerance = 0.01f, int maxFrames = 256,
+    Result<int> converge(const Tracer& tracer, const Lighting& lighting, float tolerance = 0.03f, int maxFrames = 256,
                          const std::function<void(const UpdateTimes&)>& onUpdate = {});
 
     /// Announces a change to the scene (section 4.3).

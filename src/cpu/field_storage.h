@@ -16,7 +16,7 @@ struct FieldStorage {
     std::vector<std::uint16_t> irradiance;
     /// Mean (low 16 bits) and mean square (high 16 bits) of distance / maxDistance, as unorm: [probe][texel].
     std::vector<std::uint32_t> visibility;
-    /// Share of rays that hit backfaces, 0..1, averaged over frames: [probe].
+    /// Share of the hits that were on backfaces, 0..1, averaged over frames: [probe].
     std::vector<float> backfaceShare;
 };
 

@@ -44,6 +44,9 @@ struct BlockInput {
     bool weighted = false;
 };
 
+// RayDatum::distance of a ray that hit nothing is at least this.
+constexpr float kMissDistance = 1e27f;
+
 // Not a number, infinite or negative radiance never enters an atlas.
 float safeRadiance(float x) {
     return x > 0.0f && x < 1e30f ? x : 0.0f;
@@ -59,10 +62,12 @@ void gather(const FieldDesc& desc, const FieldLayout& layout, std::span<const Ra
     in.backfaceShare.assign(rows, 0.0f);
     for (std::size_t p = 0; p < rows; ++p) {
         const RayDatum* row = data.data() + p * rays;
+        int backfaces = 0, hits = 0;
         for (std::size_t r = 0; r < rays; ++r) {
             const RayDatum& d = row[r];
             const bool backface = std::signbit(d.distance);
-            in.backfaceShare[p] += backface ? 1.0f / float(rays) : 0.0f;
+            backfaces += backface ? 1 : 0;
+            hits += d.distance < kMissDistance ? 1 : 0;
             for (int c = 0; c < 3; ++c) in.radiance(3 * p + c, r) = backface ? 0.0f : safeRadiance(d.radiance[c]);
             const float finite = std::isnan(d.distance) ? layout.maxDistance : d.distance;
             const float fraction = kernels::visibilityDistance(finite, layout.maxDistance);
@@ -70,6 +75,7 @@ void gather(const FieldDesc& desc, const FieldLayout& layout, std::span<const Ra
             in.distance(2 * p + 1, r) = fraction * fraction;
             if (in.weighted) in.valid(p, r) = backface ? 0.0f : 1.0f;
         }
+        in.backfaceShare[p] = hits > 0 ? float(backfaces) / float(hits) : 0.0f;
     }
 }
 

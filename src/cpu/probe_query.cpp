@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
 #include "cpu/leak_guards.h"
@@ -21,12 +22,14 @@ using wide::stdx::element_aligned;
 // One texel's three channels (and whatever follows) abreast.
 using Texel = wide::stdx::fixed_size_simd<float, 4>;
 
-Texel loadTexel(const std::uint16_t* halves) {
-    // kernels::unpackHalf, four abreast; stdx has no half type and no bit_cast.
+// kernels::unpackHalf, four abreast, but for the factor kHalfRebase, which the weights of the footprint bring: a power
+// of two changes no rounding. Inlined by force, as is storedIrradiance: a call returns four floats through memory,
+// which took a quarter of the query.
+[[gnu::always_inline]] inline Texel loadTexel(const std::uint16_t* halves) {
     using TexelBits = wide::stdx::fixed_size_simd<std::uint32_t, 4>;
-    std::array<std::uint32_t, 4> bits;
-    (TexelBits([&](auto i) { return std::uint32_t(halves[i]); }) << 13).copy_to(bits.data(), element_aligned);
-    return Texel(std::bit_cast<std::array<float, 4>>(bits).data(), element_aligned) * kernels::kHalfRebase;
+    std::array<std::uint32_t, 4> bits;  // stdx has no bit_cast
+    (TexelBits(halves, element_aligned) << 13).copy_to(bits.data(), element_aligned);
+    return Texel(std::bit_cast<std::array<float, 4>>(bits).data(), element_aligned);
 }
 
 // A bilinear footprint of one map that all probes share: four texel offsets and their weights.
@@ -43,7 +46,14 @@ Footprint footprintOf(const TapTable& table, int size, glm::vec3 direction) {
     return {{taps[0], taps[1], taps[2], taps[3]}, {(1 - f.x) * (1 - f.y), f.x * (1 - f.y), (1 - f.x) * f.y, f.x * f.y}};
 }
 
-Texel storedIrradiance(const std::uint16_t* map, const Footprint& f) {
+// A footprint of the irradiance maps, for storedIrradiance.
+Footprint irradianceFootprint(const FieldView& view, glm::vec3 normal) {
+    Footprint f = footprintOf(*view.irradianceTaps, view.desc->irradianceTexels, normal);
+    for (float& weight : f.weight) weight *= kernels::kHalfRebase;
+    return f;
+}
+
+[[gnu::always_inline]] inline Texel storedIrradiance(const std::uint16_t* map, const Footprint& f) {
     return f.weight[0] * loadTexel(map + 3 * f.offset[0]) + f.weight[1] * loadTexel(map + 3 * f.offset[1]) +
            f.weight[2] * loadTexel(map + 3 * f.offset[2]) + f.weight[3] * loadTexel(map + 3 * f.offset[3]);
 }
@@ -52,33 +62,50 @@ const Real kCornerX([](int lane) { return float(lane & 1); });
 const Real kCornerY([](int lane) { return float(lane >> 1 & 1); });
 const Real kCornerZ([](int lane) { return float(lane >> 2 & 1); });
 
-// All eight probes stand in walls where their weights sum to less than this.
-constexpr float kVanished = 1e-9f;
+// E that one probe stores, from what storedIrradiance gives.
+glm::vec3 decoded(const Texel& s) {
+    return glm::vec3(kernels::decodeIrradiance(s[0]), kernels::decodeIrradiance(s[1]),
+                     kernels::decodeIrradiance(s[2])) *
+           kernels::kPi;
+}
+
+// Sum of weights below which the cage does not know: what is left are probes in walls, or probes whose moments say that
+// they do not see the point (eight of them at the floor of the Chebyshev weight sum to 0.004 at most).
+constexpr float kDoubtful = 0.005f;
 // Half the side, in probes, of the block that is searched then.
 constexpr int kSearch = 2;
 
-// The answer where no probe of the cage can give one: the probes of a wider block that do not stand in walls, by
-// distance, facing and what their moments say of the way; black only where there is none at all.
-glm::vec3 queryNeighbours(const FieldView& view, const FieldQuery& query) {
-    if (view.fallbacks) view.fallbacks->fetch_add(1, std::memory_order_relaxed);
+// The answer where the probes of the cage do not know: the probes of a wider block, weighted by distance, facing, what
+// their moments say of the way and whether they stand in walls; black only where all of them do.
+glm::vec3 queryNeighbours(const FieldView& view, const FieldQuery& query, glm::vec3 bias) {
     const GridDesc& grid = view.desc->grid;
-    const glm::ivec3 base(glm::floor((query.position - grid.origin) * view.inverseSpacing));
+    const glm::ivec3 base(glm::floor((query.position + bias - grid.origin) * view.inverseSpacing));
     const glm::ivec3 lowest = glm::clamp(base - (kSearch - 1), glm::ivec3(0), grid.counts - 1);
     const glm::ivec3 highest = glm::clamp(base + kSearch, glm::ivec3(0), grid.counts - 1);
+    const Footprint footprint = irradianceFootprint(view, query.normal);
+    const std::size_t halvesPerProbe = 3 * std::size_t(view.desc->irradianceTexels * view.desc->irradianceTexels);
     glm::vec3 sum(0.0f);
     float weightSum = 0;
     for (int z = lowest.z; z <= highest.z; ++z)
         for (int y = lowest.y; y <= highest.y; ++y)
             for (int x = lowest.x; x <= highest.x; ++x) {
                 const int probe = x + grid.counts.x * (y + grid.counts.y * z);
+                const float outside = kernels::outsideWeight(view.backfaceShare[probe]);
+                if (outside <= 0.0f) continue;
                 const glm::vec3 toProbe = probePosition(grid, probe) - query.position;
                 const float distance = glm::length(toProbe) + 1e-20f;
-                const glm::vec2 moments = probeMoments(view, probe, toProbe / -distance);
+                const glm::vec3 toPoint = bias - toProbe;
+                const float toPointLength = glm::length(toPoint) + 1e-20f;
+                const glm::vec2 moments = probeMoments(view, probe, toPoint / toPointLength);
+                // Beyond the farthest stored distance the moments cannot tell what is in the way.
+                const float fraction = toPointLength * view.inverseMaxDistance;
+                const float visible =
+                    fraction < 1.0f ? kernels::chebyshevWeight(moments.x, moments.y, fraction) : kernels::kMinChebyshev;
                 const float near = view.minSpacing / (view.minSpacing + distance);
-                const float weight = kernels::outsideWeight(view.backfaceShare[probe]) * near * near * near * near *
-                                     kernels::backfaceWeight(glm::dot(toProbe, query.normal) / distance) *
-                                     kernels::chebyshevWeight(moments.x, moments.y, distance * view.inverseMaxDistance);
-                sum += weight * probeIrradiance(view, probe, query.normal);
+                const float facing = kernels::backfaceWeight(glm::dot(toProbe, query.normal) / distance);
+                const float weight = outside * near * near * near * near * kernels::crushWeight(facing * visible);
+                sum += weight *
+                       decoded(storedIrradiance(view.irradiance + halvesPerProbe * std::size_t(probe), footprint));
                 weightSum += weight;
             }
     return weightSum > 0 ? sum / weightSum : glm::vec3(0.0f);
@@ -86,14 +113,18 @@ glm::vec3 queryNeighbours(const FieldView& view, const FieldQuery& query) {
 
 // Steps 1 to 3 of section 2.2 for the eight probes around a point, then their weighted sum.
 template <class Guard>
-glm::vec3 queryOne(const FieldView& view, const FieldQuery& query, const Guard& guard) {
+glm::vec3 queryOne(const FieldView& view, FieldQuery query, const Guard& guard) {
     const GridDesc& grid = view.desc->grid;
-    const glm::vec3 local = (query.position - grid.origin) * view.inverseSpacing;
+    // Outside the grid the nearest point of it answers: farther away no probe could see the point.
+    query.position = glm::clamp(query.position, grid.origin, grid.origin + grid.spacing * glm::vec3(grid.counts - 1));
+    const glm::vec3 bias =
+        kernels::selfShadowBias(query.normal, query.toViewer, view.minSpacing, view.desc->selfShadowBias);
+    // The cage and the trilinear weights are those of the biased point: a point on a wall that runs through a layer of
+    // probes would otherwise lean on that layer alone.
+    const glm::vec3 local = (query.position + bias - grid.origin) * view.inverseSpacing;
     const glm::vec3 base = glm::clamp(glm::floor(local), glm::vec3(0.0f), glm::vec3(grid.counts - 2));
     const glm::vec3 alpha = glm::clamp(local - base, 0.0f, 1.0f);
     const glm::vec3 fromBase = query.position - (grid.origin + base * grid.spacing);
-    const glm::vec3 bias =
-        kernels::selfShadowBias(query.normal, query.toViewer, view.minSpacing, view.desc->selfShadowBias);
 
     // From the point to each probe.
     const Real dx = kCornerX * grid.spacing.x - fromBase.x;
@@ -114,18 +145,26 @@ glm::vec3 queryOne(const FieldView& view, const FieldQuery& query, const Guard& 
     const Real weight = wide::crushWeight(wide::backfaceWeight(cosToProbe) * guard(view, cage)) * trilinear *
                         wide::outsideWeight(share);
     const float weightSum = wide::stdx::reduce(weight);
-    if (!(weightSum > kVanished)) return queryNeighbours(view, query);
 
     const int size = view.desc->irradianceTexels;
-    const Footprint footprint = footprintOf(*view.irradianceTaps, size, query.normal);
+    const Footprint footprint = irradianceFootprint(view, query.normal);
     Texel sum = 0.0f;
     for (int lane = 0; lane < wide::kLanes; ++lane) {
         const std::size_t texels = std::size_t(cage.probes[std::size_t(lane)]) * std::size_t(size * size);
         const Texel stored = storedIrradiance(view.irradiance + 3 * texels, footprint);
         sum += float(weight[lane]) * (stored * stored * wide::stdx::sqrt(stored));
     }
-    sum /= weightSum;
-    return glm::vec3(sum[0] * sum[0], sum[1] * sum[1], sum[2] * sum[2]) * kernels::kPi;
+    if (weightSum >= kDoubtful) {
+        sum /= weightSum;
+        return glm::vec3(sum[0] * sum[0], sum[1] * sum[1], sum[2] * sum[2]) * kernels::kPi;
+    }
+    if (view.fallbacks) view.fallbacks->fetch_add(1, std::memory_order_relaxed);
+    // The neighbours make up the weight that is missing, so that the answer stays continuous in space.
+    const glm::vec3 neighbours = glm::sqrt(queryNeighbours(view, query, bias) * (1.0f / kernels::kPi));
+    const float missing = kDoubtful - weightSum;
+    glm::vec3 root;
+    for (int c = 0; c < 3; ++c) root[c] = (sum[c] + missing * neighbours[c]) / kDoubtful;
+    return root * root * kernels::kPi;
 }
 
 template <class Guard>
@@ -160,12 +199,9 @@ void queryIrradiance(const FieldView& view, std::span<const FieldQuery> queries,
 
 glm::vec3 probeIrradiance(const FieldView& view, int probe, glm::vec3 normal) {
     const int size = view.desc->irradianceTexels;
-    const Footprint footprint = footprintOf(*view.irradianceTaps, size, normal);
+    const Footprint footprint = irradianceFootprint(view, normal);
     const std::size_t texels = std::size_t(probe) * std::size_t(size * size);
-    const Texel s = storedIrradiance(view.irradiance + 3 * texels, footprint);
-    return glm::vec3(kernels::decodeIrradiance(s[0]), kernels::decodeIrradiance(s[1]),
-                     kernels::decodeIrradiance(s[2])) *
-           kernels::kPi;
+    return decoded(storedIrradiance(view.irradiance + 3 * texels, footprint));
 }
 
 glm::vec2 probeMoments(const FieldView& view, int probe, glm::vec3 direction) {

@@ -6,6 +6,9 @@
 
 KERNELS_BEGIN
 
+// Weight of a probe straight behind the surface. Majercik et al. 2019 add 0.2; against a sealed room 0.05 halves the
+// leak (docs/accuracy.md), and points that no probe faces have the wider search to fall back on.
+KERNEL_CONST float kBackfaceFloor = 0.05f;
 // Smallest trilinear factor per axis, so that a point on a cell's face still has a fallback on the far side.
 KERNEL_CONST float kMinTrilinear = 0.001f;
 // Chebyshev weights never fall below this: where all eight probes are shadowed, ratios still decide.
@@ -13,7 +16,7 @@ KERNEL_CONST float kMinChebyshev = 0.05f;
 // Weights below this are crushed.
 KERNEL_CONST float kCrushBelow = 0.2f;
 
-// Share of backface rays at which a probe begins to count as inside geometry, and over which it ceases to be used.
+// Share of backface hits at which a probe begins to count as inside geometry, and over which it ceases to be used.
 KERNEL_CONST float kInsideShare = 0.25f;
 KERNEL_CONST float kInsideShareEdge = 0.05f;
 
@@ -27,10 +30,11 @@ KERNEL_FN Real trilinearFactor(Real corner, float alpha) {
     return max(Real(kMinTrilinear), corner * alpha + (1.0f - corner) * (1.0f - alpha));
 }
 
-// Smooth backface weight: ((cos + 1) / 2)^2 + 0.2, with the cosine between the normal and the direction to the probe.
+// Smooth backface weight: ((cos + 1) / 2)^2 and a floor, with the cosine between the normal and the direction to the
+// probe.
 KERNEL_FN Real backfaceWeight(Real cosToProbe) {
     const Real wrap = cosToProbe * 0.5f + 0.5f;
-    return wrap * wrap + 0.2f;
+    return wrap * wrap + kBackfaceFloor;
 }
 
 // One-sided Chebyshev bound on the share of light that passes `distance`, from the mean and mean square of the distance
@@ -48,8 +52,9 @@ KERNEL_FN Real crushWeight(Real w) {
     return select(w < kCrushBelow, w * w * w * (1.0f / (kCrushBelow * kCrushBelow)), w);
 }
 
-// How far a probe may be used at all: not when more than a quarter of its rays hit backfaces, since then it stands in a
-// wall (Listing 4 draws the same line); a soft edge keeps the answer continuous in time.
+// How far a probe may be used at all: not when more than a quarter of what it hits are backfaces, since then it stands
+// in a wall or outside the modelled world. Listing 4 draws the line at a quarter of all rays; a share of the hits also
+// finds probes that look at a closed shell from the void around it. A soft edge keeps the answer continuous in time.
 KERNEL_FN Real outsideWeight(Real backfaceShare) {
     return max(Real(0.0f), 1.0f - max(Real(0.0f), backfaceShare - kInsideShare) * (1.0f / kInsideShareEdge));
 }

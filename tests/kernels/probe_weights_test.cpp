@@ -21,9 +21,16 @@ TEST(ProbeQuery, trilinearFactorsOfAnAxisSumToOneInside) {
 }
 
 TEST(ProbeQuery, backfaceWeightFallsFromFrontToBack) {
-    EXPECT_FLOAT_EQ(backfaceWeight(1.0f), 1.2f);
-    EXPECT_FLOAT_EQ(backfaceWeight(-1.0f), 0.2f);
-    EXPECT_FLOAT_EQ(backfaceWeight(0.0f), 0.45f);
+    EXPECT_FLOAT_EQ(backfaceWeight(1.0f), 1.05f);
+    EXPECT_FLOAT_EQ(backfaceWeight(-1.0f), 0.05f);
+    EXPECT_FLOAT_EQ(backfaceWeight(0.0f), 0.30f);
+}
+
+TEST(ProbeQuery, probesInWallsAreNotUsed) {
+    EXPECT_FLOAT_EQ(outsideWeight(0.0f), 1.0f);
+    EXPECT_FLOAT_EQ(outsideWeight(kInsideShare), 1.0f);
+    EXPECT_FLOAT_EQ(outsideWeight(kInsideShare + 0.5f * kInsideShareEdge), 0.5f);
+    EXPECT_FLOAT_EQ(outsideWeight(1.0f), 0.0f);
 }
 
 TEST(ProbeQuery, chebyshevIsOneInFrontAndFollowsItsBoundBehind) {
@@ -41,7 +48,7 @@ TEST(ProbeQuery, chebyshevIsOneInFrontAndFollowsItsBoundBehind) {
 TEST(ProbeQuery, crushIsContinuousMonotoneAndKillsTheFloor) {
     EXPECT_FLOAT_EQ(crushWeight(0.5f), 0.5f);
     EXPECT_NEAR(crushWeight(kCrushBelow * 0.99999f), kCrushBelow, 1e-4f);
-    EXPECT_LT(8 * crushWeight(kMinChebyshev * 0.2f), 0.001f);
+    EXPECT_LT(8 * crushWeight(kMinChebyshev * 1.05f), 0.05f);
     for (float w = 0.01f; w < 0.4f; w += 0.01f) EXPECT_LT(crushWeight(w), crushWeight(w + 0.01f));
 }
 
