@@ -300,7 +300,7 @@ Result<Scene> makeAtrium(const BuiltinParams&) {
     addSun(scene, {0.28f, -1, 0.36f}, glm::vec3(12.0f, 11.0f, 9.4f));
     scene.sky.radiance = {0.3f, 0.42f, 0.62f};
     addCamera(scene, "nave", {-11.0f, 1.7f, -0.9f}, {0, 3.0f, 0.5f}, 62);
-    addCamera(scene, "gallery", {-13.2f, kGallery + 1.65f, -3.0f}, {0, 4.0f, 1.5f}, 62);
+    addCamera(scene, "gallery", {-12.55f, kGallery + 1.7f, -2.9f}, {0, 3.2f, -0.8f}, 62);
     addCamera(scene, "court", {6.0f, 2.0f, -2.9f}, {-2.0f, 2.9f, 3.4f}, 65);
     addCamera(scene, "aisle", {-11.3f, 1.8f, 6.3f}, {2, 1.7f, 5.6f}, 65);
     scene.exposure = 1.0f;

@@ -124,7 +124,8 @@ Mesh BoxSolid::build(std::string name) const {
             const Cells::Cell neighbour = cells.get(n);
             if (neighbour.material >= 0) continue;
             int material = cell.material;
-            if (neighbour.step >= 0) {
+            // The space's paint, unless the wall was put there later.
+            if (neighbour.step > cell.step) {
                 const int painted = m_steps[std::size_t(neighbour.step)].paint.byNormal[std::size_t(side)];
                 if (painted >= 0) material = painted;
             }

@@ -18,8 +18,9 @@ struct Paint {
 };
 
 /// Architecture as a union of axis-aligned boxes with others carved out, in the order of the calls. The result is the
-/// boundary of the union: one closed surface without inner faces, gaps or T-junctions, whatever the boxes' overlaps.
-/// Coordinates are rounded to 0.1 mm.
+/// boundary of the union: one closed surface without inner faces, gaps or T-junctions, whatever the boxes' overlaps. A
+/// face between wall and empty space shows the paint of the space or, where that was made earlier, the wall's own
+/// material. Coordinates are rounded to 0.1 mm.
 class BoxSolid {
 public:
     void fill(glm::vec3 lower, glm::vec3 upper, int material);

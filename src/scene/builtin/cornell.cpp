@@ -57,10 +57,10 @@ Result<Scene> makeCornell(const BuiltinParams&) {
     constexpr glm::vec3 kLower(kWidth - 3.43f, kHeight - 0.01f, -3.32f),
         kUpper(kWidth - 2.13f, kHeight + 0.05f, -2.27f);
     BoxSolid panel;
+    panel.fill(kLower, kUpper, white);
     Paint glow;
     glow.byNormal[3] = lamp;
     panel.carve({kLower.x, kLower.y - 0.01f, kLower.z}, {kUpper.x, kLower.y, kUpper.z}, glow);
-    panel.fill(kLower, kUpper, white);
     place(scene, addMesh(scene, panel.build("lamp")));
 
     addCamera(scene, "front", {2.78f, 2.73f, 8.0f}, {2.78f, 2.73f, 0}, 39.3f);

@@ -25,11 +25,11 @@ struct Materials {
 
 Materials addMaterials(Scene& scene) {
     Materials m;
-    m.ground =
-        addTextured(scene, "ground", squareTilesTexture({0.42f, 0.38f, 0.33f}, {0.25f, 0.24f, 0.22f}, 4, 3), 3.0f);
-    m.outside = addTextured(scene, "render", plasterTexture({0.66f, 0.58f, 0.47f}, 17), 3.0f);
+    m.ground = addTextured(scene, "ground", squareTilesTexture({0.2f, 0.18f, 0.15f}, {0.1f, 0.1f, 0.09f}, 4, 3), 3.0f);
+    m.outside =
+        addTextured(scene, "bricks", masonryTexture({0.3f, 0.13f, 0.08f}, {0.25f, 0.22f, 0.2f}, 6, 16, 17), 1.4f);
     m.plaster = addTextured(scene, "plaster", plasterTexture({0.74f, 0.72f, 0.68f}, 5), 2.5f);
-    m.floor = addTextured(scene, "planks", plankTexture({0.42f, 0.25f, 0.13f}, 8, 21), 1.6f, 0.6f);
+    m.floor = addTextured(scene, "planks", plankTexture({0.58f, 0.38f, 0.22f}, 8, 21), 1.6f, 0.6f);
     m.ceiling = addMaterial(scene, "ceiling", {0.8f, 0.8f, 0.78f});
     m.accentA = addTextured(scene, "terracotta wall", plasterTexture({0.62f, 0.23f, 0.12f}, 8), 2.5f);
     m.accentB = addTextured(scene, "blue wall", plasterTexture({0.14f, 0.3f, 0.52f}, 9), 2.5f);
@@ -40,7 +40,7 @@ Materials addMaterials(Scene& scene) {
 BoxSolid shell(const Rooms& r, const Materials& m) {
     const float t = r.thickness;
     BoxSolid solid;
-    solid.fill({-14, -0.4f, -12}, {14, -0.05f, 12}, m.ground);
+    solid.fill({-10, -0.4f, -6}, {10, -0.05f, 10}, m.ground);
     solid.fill({r.left() - t, -0.4f, r.back() - t}, {r.right() + t, r.height + t, r.front() + t}, m.outside);
     Paint first = Paint::room(m.plaster, m.floor, m.ceiling);
     first.byNormal[0] = m.accentA;
@@ -92,7 +92,7 @@ void furnish(Scene& scene, float side) {
     addTable(scene, wood, {side * 2.9f, 0, -0.9f}, 0.3f);
     addBall(scene, white, {side * 2.8f, 0.75f, -0.9f}, 0.2f);
     addCrate(scene, yellow, {side * 4.2f, 0, -1.7f}, {0.8f, 0.8f, 0.8f}, 0.5f);
-    addCrate(scene, teal, {side * 1.1f, 0, -1.9f}, {0.6f, 1.4f, 0.6f}, 0.15f);
+    addCrate(scene, teal, {side * 1.0f, 0, -1.95f}, {0.6f, 1.4f, 0.6f}, 0.15f);
     addBall(scene, yellow, {side * 1.7f, 0, 0.6f}, 0.35f);
 }
 
@@ -106,14 +106,14 @@ Result<Scene> makeRooms(const BuiltinParams& params, const char* name, bool door
     const Materials m = addMaterials(scene);
     BoxSolid solid = shell(r, m);
     openWindow(solid, r, m);
-    if (doorway) solid.carve({-r.wall(), 0, 0.2f}, {r.wall(), 2.1f, 1.5f}, Paint::room(m.plaster, m.floor, m.plaster));
+    if (doorway) solid.carve({-r.wall(), 0, -0.6f}, {r.wall(), 2.2f, 1.2f}, Paint::room(m.plaster, m.floor, m.plaster));
     place(scene, addMesh(scene, solid.build("walls")));
     furnish(scene, -1);
     furnish(scene, 1);
 
-    addSun(scene, {0.25f, -1, -0.9f}, glm::vec3(14.0f, 12.6f, 10.6f));
-    scene.sky.radiance = {0.45f, 0.6f, 0.9f};
-    addCamera(scene, "lit", {-r.wall() - 0.4f, 1.6f, 2.1f}, {-3.6f, 1.0f, -1.5f}, 65);
+    addSun(scene, {0.45f, -0.9f, -1.0f}, glm::vec3(10.0f, 9.0f, 7.6f));
+    scene.sky.radiance = {0.4f, 0.55f, 0.85f};
+    addCamera(scene, "lit", {-0.5f, 1.6f, 2.1f}, {-3.4f, 0.9f, -1.2f}, 65);
     return scene;
 }
 
@@ -123,9 +123,9 @@ Result<Scene> makeTwoRooms(const BuiltinParams& params) {
     auto scene = makeRooms(params, "two-rooms", true);
     if (!scene) return scene;
     addCamera(*scene, "second", {4.5f, 1.6f, 1.9f}, {0, 1.1f, -0.1f}, 68);
-    addCamera(*scene, "doorway", {-4.2f, 1.6f, 0.2f}, {4, 1.1f, 1.0f}, 60);
+    addCamera(*scene, "doorway", {-4.5f, 1.6f, 0.6f}, {4, 1.0f, 0.2f}, 60);
     addCamera(*scene, "outside", {-6.5f, 4.2f, 10.5f}, {-0.6f, 1, 0}, 45);
-    scene->exposure = 1.0f;
+    scene->exposure = 1.5f;
     return scene;
 }
 
@@ -135,7 +135,7 @@ Result<Scene> makeDarkRoom(const BuiltinParams& params) {
     if (!scene) return scene;
     addCamera(*scene, "dark", {4.5f, 1.6f, 1.9f}, {0, 1.1f, -0.1f}, 68);
     addCamera(*scene, "outside", {-6.5f, 4.2f, 10.5f}, {-0.6f, 1, 0}, 45);
-    scene->exposure = 1.0f;
+    scene->exposure = 1.5f;
     return scene;
 }
 
