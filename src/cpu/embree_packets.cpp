@@ -36,14 +36,18 @@ bool usable(const Ray& ray) {
            d.z <= kLargest && std::max(0.0f, ray.near) <= ray.far;
 }
 
+/// 1 or 0, for sums without branches.
+int inRange(float x) {
+    return std::abs(x) <= kLargest ? 1 : 0;
+}
+
 /// Embree's mask of the lanes that hold usable rays: -1 or 0. Written without branches, for SIMD.
 void findUsable(const RTCRay16& r, std::size_t count, int (&valid)[kWidth]) {
     for (std::size_t k = 0; k < kWidth; ++k) {
-        const bool origin = (std::abs(r.org_x[k]) <= kLargest) & (std::abs(r.org_y[k]) <= kLargest) &
-                            (std::abs(r.org_z[k]) <= kLargest);
-        const bool direction = (std::abs(r.dir_x[k]) <= kLargest) & (std::abs(r.dir_y[k]) <= kLargest) &
-                               (std::abs(r.dir_z[k]) <= kLargest);
-        valid[k] = origin & direction & (r.tnear[k] <= r.tfar[k]) & (k < count) ? -1 : 0;
+        const int origin = inRange(r.org_x[k]) & inRange(r.org_y[k]) & inRange(r.org_z[k]);
+        const int direction = inRange(r.dir_x[k]) & inRange(r.dir_y[k]) & inRange(r.dir_z[k]);
+        const int interval = r.tnear[k] <= r.tfar[k] ? 1 : 0;
+        valid[k] = -(origin & direction & interval & (k < count ? 1 : 0));
     }
 }
 

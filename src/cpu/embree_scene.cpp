@@ -65,7 +65,8 @@ void EmbreeScene::attachMesh(RTCScene scene, const SurfaceMesh& mesh, int geomet
 
 EmbreeSceneHandle EmbreeScene::makeScene(const SurfaceGroup& group) {
     EmbreeSceneHandle scene(rtcNewScene(m_device.get()));
-    // ROBUST: rays through shared edges and vertices never slip between the triangles. It costs a third of the speed,
+    // ROBUST: rays never slip between two triangles that share an edge. Without it 1.8 % of the rays aimed at edges of
+    // a closed box were lost, and 16 % of those aimed at vertices (0.14 % with it). It costs a third of the speed,
     // mostly because Embree has no spatial splits for it, so that a higher build quality would change nothing.
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_MEDIUM);

@@ -1,0 +1,33 @@
+// The tracer is shared by all threads, and leaves theirs as it found them.
+#include <cstring>
+#include <limits>
+#include <thread>
+
+#include "tracer/tracer_scene.h"
+
+namespace probegi::test {
+
+TEST(EmbreeTracerThreads, ManyAtOnceGetTheSameAnswers) {
+    std::mt19937 random(41);
+    TestScene s;
+    s.add(innerBox(4, random));
+    const auto tracer = s.trace();
+    std::vector<Ray> rays(20000);
+    for (Ray& ray : rays) ray = rayAlong(randomPoint(random, 0.9f), randomDirection(random));
+    std::vector<std::vector<Hit>> hits(4, std::vector<Hit>(rays.size()));
+    std::vector<std::thread> threads;
+    for (std::vector<Hit>& mine : hits) threads.emplace_back([&] { tracer->closestHits(rays, mine); });
+    for (std::thread& thread : threads) thread.join();
+    for (const std::vector<Hit>& mine : hits)
+        EXPECT_EQ(std::memcmp(mine.data(), hits[0].data(), mine.size() * sizeof(Hit)), 0);
+}
+
+TEST(EmbreeTracerThreads, TheCallersDenormalsSurvive) {
+    TestScene s;
+    s.add(quad());
+    shoot(*s.trace(), rayAlong({0, 1, 0}, {0, -1, 0}));
+    volatile float tiny = std::numeric_limits<float>::min();
+    EXPECT_GT(tiny * 0.5f, 0.0f);
+}
+
+}  // namespace probegi::test
