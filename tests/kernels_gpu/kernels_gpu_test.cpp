@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <regex>
 #include <set>
 
 #include "kernels_gpu/case.h"
@@ -92,6 +93,24 @@ TEST(KernelHeaders, eachHasAShader) {
         EXPECT_THAT(tested, testing::Contains(entry.path().stem().string()))
             << "src/kernels/" << entry.path().filename().string() << " needs a tests/kernels_gpu/shaders/"
             << entry.path().stem().string() << ".comp";
+    }
+}
+
+std::string readText(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(KernelHeaders, eachFunctionIsCalledByItsShader) {
+    const std::filesystem::path root = PROBEGI_SOURCE_DIR;
+    const std::regex function("KERNEL_FN \\w+ (\\w+)\\(");
+    for (const KernelCase& kernelCase : kernelCases()) {
+        const std::string name = kernelCase.name;
+        const std::string header = readText(root / "src/kernels" / (name + ".h"));
+        const std::string shader = readText(root / "tests/kernels_gpu/shaders" / (name + ".comp"));
+        for (std::sregex_iterator it(header.begin(), header.end(), function), end; it != end; ++it) {
+            EXPECT_THAT(shader, testing::HasSubstr((*it)[1].str() + "(")) << name << ".comp leaves it untested";
+        }
     }
 }
 

@@ -29,6 +29,11 @@ void evaluate(INOUT(Lane) lane) {
     give(lane, ggxDistribution(normalize(wo + wi), b.alpha), 2e-4f);
     give(lane, ggxLambda(wo.z, b.alpha), 1e-5f);
     give(lane, ggxVisibility(wo.z, wi.z, b.alpha), 1e-4f);
+    vec3 diffuse;
+    vec3 specular;
+    evalLobes(b, wo, wi, diffuse, specular);
+    giveVec3(lane, diffuse, 1e-5f);
+    giveVec3(lane, specular, 2e-4f);
     giveVec3(lane, evalBsdf(b, wo, wi), 2e-4f);
     giveVec3(lane, evalBsdf(b, wo, vec3(0.0f, 0.0f, -1.0f)), 0.0f);
     give(lane, diffuseProbability(b, wo), 1e-5f);

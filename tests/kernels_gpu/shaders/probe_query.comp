@@ -18,4 +18,6 @@ void evaluate(INOUT(Lane) lane) {
     give(lane, chebyshevWeight(0.0f, 0.0f, unit + 0.01f), 1e-6f);
     give(lane, chebyshevWeight(0.0f, 0.0f, 0.0f), 1e-6f);
     give(lane, crushWeight(unit), 1e-6f);
+    // The soft edge is steep: it magnifies a rounding of the share.
+    give(lane, outsideWeight(unit), 1e-5f);
 }
