@@ -52,13 +52,14 @@ glm::vec3 blendSpaceIrradiance(const FieldView& view, int probe, const Footprint
             kernels::decodeToBlendSpace(stored.z)};
 }
 
-glm::vec3 queryOne(const FieldView& view, const FieldQuery& query) {
+glm::vec3 queryOne(const FieldView& view, FieldQuery query) {
     const GridDesc& grid = view.desc->grid;
-    const glm::vec3 local = (query.position - grid.origin) * view.inverseSpacing;
-    const glm::vec3 base = glm::clamp(glm::floor(local), glm::vec3(0.0f), glm::vec3(grid.counts - 2));
-    const glm::vec3 alpha = glm::clamp(local - base, 0.0f, 1.0f);
+    query.position = glm::clamp(query.position, grid.origin, grid.origin + grid.spacing * glm::vec3(grid.counts - 1));
     const glm::vec3 bias =
         kernels::selfShadowBias(query.normal, query.toViewer, view.minSpacing, view.desc->selfShadowBias);
+    const glm::vec3 local = (query.position + bias - grid.origin) * view.inverseSpacing;
+    const glm::vec3 base = glm::clamp(glm::floor(local), glm::vec3(0.0f), glm::vec3(grid.counts - 2));
+    const glm::vec3 alpha = glm::clamp(local - base, 0.0f, 1.0f);
     const Footprint footprint = footprintOf(*view.irradianceTaps, view.desc->irradianceTexels, query.normal);
     glm::vec3 sum(0.0f);
     float weightSum = 0;
