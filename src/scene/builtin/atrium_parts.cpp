@@ -17,12 +17,13 @@ namespace {
 constexpr float kPi = glm::pi<float>();
 constexpr float kTau = glm::two_pi<float>();
 
-/// Half a circle of a moulding that bulges outwards by `bulge` between two heights.
+/// Half a circle of a moulding that bulges outwards by `bulge` between two heights, with sharp edges at both.
 void addTorus(std::vector<glm::vec2>& profile, float radius, float y0, float y1, float bulge, int steps) {
     for (int i = 0; i <= steps; ++i) {
         const float t = float(i) / float(steps);
-        profile.emplace_back(radius + bulge * std::sin(kPi * t),
-                             0.5f * (y0 + y1) - 0.5f * (y1 - y0) * std::cos(kPi * t));
+        const float y = 0.5f * (y0 + y1) - 0.5f * (y1 - y0) * std::cos(kPi * t);
+        profile.emplace_back(radius + bulge * std::sin(kPi * t), y);
+        if (i == 0 || i == steps) profile.push_back(profile.back());
     }
 }
 

@@ -34,8 +34,8 @@ Materials addMaterials(Scene& scene) {
         return addTextured(scene, name, plasterTexture(colour, seed), 2.5f);
     };
     Materials m;
-    m.facade = plaster("facade", {0.5f, 0.42f, 0.3f}, 1);
-    m.plinth = addTextured(scene, "plinth", masonryTexture({0.3f, 0.28f, 0.25f}, {0.2f, 0.19f, 0.18f}, 4, 6, 2), 1.5f);
+    m.facade = plaster("facade", {0.36f, 0.28f, 0.18f}, 1);
+    m.plinth = addTextured(scene, "plinth", masonryTexture({0.2f, 0.18f, 0.16f}, {0.12f, 0.12f, 0.11f}, 4, 6, 2), 1.5f);
     m.wood = addTextured(scene, "wood", plankTexture({0.45f, 0.27f, 0.14f}, 3, 3), 0.9f, 0.6f);
     m.planks = addTextured(scene, "planks", plankTexture({0.55f, 0.35f, 0.19f}, 8, 4), 1.6f, 0.6f);
     m.tiles =
@@ -50,9 +50,9 @@ Materials addMaterials(Scene& scene) {
     m.green = plaster("green wall", {0.28f, 0.48f, 0.2f}, 10);
     m.yellow = plaster("yellow wall", {0.76f, 0.55f, 0.14f}, 11);
     m.rose = plaster("red wall", {0.6f, 0.14f, 0.1f}, 12);
-    m.grass = addTextured(scene, "grass", grassTexture({0.1f, 0.19f, 0.05f}, 13), 3.0f);
-    m.path = addTextured(scene, "path", squareTilesTexture({0.35f, 0.32f, 0.28f}, {0.14f, 0.15f, 0.1f}, 3, 14), 1.5f);
-    m.roof = addTextured(scene, "roof tiles", roofTexture({0.42f, 0.15f, 0.08f}, 15), 1.8f);
+    m.grass = addTextured(scene, "grass", grassTexture({0.055f, 0.105f, 0.03f}, 13), 3.0f);
+    m.path = addTextured(scene, "path", squareTilesTexture({0.22f, 0.2f, 0.17f}, {0.09f, 0.09f, 0.07f}, 3, 14), 1.5f);
+    m.roof = addTextured(scene, "roof tiles", roofTexture({0.28f, 0.09f, 0.05f}, 15), 1.8f);
     m.frame = addMaterial(scene, "frames", {0.75f, 0.75f, 0.73f}, 0.5f);
     m.sofa = addMaterial(scene, "sofa", {0.1f, 0.26f, 0.3f});
     m.sheet = addMaterial(scene, "sheet", {0.8f, 0.8f, 0.8f});
@@ -62,7 +62,7 @@ Materials addMaterials(Scene& scene) {
     m.metal = addMaterial(scene, "steel", {0.6f, 0.6f, 0.6f}, 0.35f);
     scene.materials[std::size_t(m.metal)].metallic = 1;
     m.bark = addTextured(scene, "bark", plankTexture({0.16f, 0.1f, 0.06f}, 5, 16), 0.8f);
-    m.foliage = addTextured(scene, "foliage", grassTexture({0.1f, 0.26f, 0.05f}, 17), 1.0f);
+    m.foliage = addTextured(scene, "foliage", grassTexture({0.045f, 0.11f, 0.025f}, 17), 1.0f);
     return m;
 }
 
@@ -148,6 +148,7 @@ MeshBuilder carveWindows(BoxSolid& s, const Materials& m) {
     windows.alongX(10.2f, 11.4f, 0.9f, 2.2f, back);
     windows.alongX(2.4f, 3.8f, kUpper + 0.9f, kUpper + 2.2f, back);
     windows.alongX(10.4f, 11.2f, kUpper + 1.3f, kUpper + 2.2f, back);
+    windows.alongX(6.7f, 7.9f, kUpper + 0.9f, kUpper + 2.2f, back);
     windows.alongZ(3.0f, 5.0f, 0.7f, 2.3f, left);
     windows.alongZ(1.2f, 2.6f, kUpper + 0.9f, kUpper + 2.2f, left);
     windows.alongZ(4.6f, 6.4f, 1.0f, 2.3f, right);
@@ -248,19 +249,19 @@ Result<Scene> makeHouse(const BuiltinParams&) {
     furnishGroundFloor(scene, m);
     furnishUpperFloor(scene, m);
     const int tree = addTree(scene, m.bark, m.foliage, 3);
-    place(scene, tree, {-2.9f, -0.15f, 10.8f}, 0, 1.15f);
+    place(scene, tree, {-4.6f, -0.15f, 8.8f}, 0, 1.2f);
     place(scene, tree, {15.8f, -0.15f, 9.0f}, 2.1f, 1.3f);
-    place(scene, tree, {-4.5f, -0.15f, 2.0f}, 4.0f, 1.5f);
+    place(scene, tree, {-5.0f, -0.15f, 1.0f}, 4.0f, 1.5f);
 
-    addSun(scene, {0.35f, -0.75f, -0.85f}, glm::vec3(9.0f, 8.1f, 6.8f));
-    scene.sky.radiance = {0.45f, 0.62f, 0.95f};
+    addSun(scene, {0.35f, -0.75f, -0.85f}, glm::vec3(11.0f, 9.9f, 8.3f));
+    scene.sky.radiance = {0.3f, 0.42f, 0.65f};
     addCamera(scene, "living room", {5.6f, 1.65f, 1.0f}, {1.6f, 1.0f, 5.2f}, 68);
     addCamera(scene, "outside", {-3.6f, 3.2f, 19.0f}, {6.4f, 3.1f, 4.0f}, 45);
     addCamera(scene, "hall", {6.6f, 1.65f, 7.4f}, {7.6f, 1.4f, 2.0f}, 68);
     addCamera(scene, "kitchen", {9.0f, 1.65f, 7.3f}, {11.8f, 0.9f, 4.2f}, 68);
     addCamera(scene, "bedroom", {5.6f, kUpper + 1.65f, 4.3f}, {1.5f, kUpper + 0.7f, 6.4f}, 68);
     addCamera(scene, "landing", {6.6f, kUpper + 1.65f, 0.8f}, {7.3f, kUpper + 0.6f, 6.0f}, 68);
-    scene.exposure = 1.3f;
+    scene.exposure = 2.2f;
     return scene;
 }
 

@@ -123,19 +123,19 @@ int addTree(Scene& scene, int bark, int foliage, int seed) {
     constexpr std::array<glm::vec2, 6> kTrunk{
         {{0, -0.3f}, {0.26f, -0.3f}, {0.17f, 0.3f}, {0.13f, 1.5f}, {0.08f, 3.0f}, {0, 3.4f}}};
     addLathe(trunk, kTrunk, 16, [](float angle, float) { return 1 + 0.08f * std::sin(5 * angle); });
-    for (int i = 0; i < 7; ++i) {
+    for (int i = 0; i < 9; ++i) {
         const auto random = [&](int k) { return hash01(i, k, seed); };
-        const float angle = 0.9f * float(i), spread = i == 0 ? 0.0f : 0.9f;
+        const float angle = 0.8f * float(i), spread = i == 0 ? 0.0f : 1.0f;
         const glm::vec3 centre(spread * std::sin(angle), 3.0f + 0.9f * random(0) + (i == 0 ? 0.9f : 0.0f),
                                spread * std::cos(angle));
         const float size = 0.85f + 0.4f * random(1);
         crown.setTransform(glm::translate(glm::mat4(1), centre));
         addGeodesicSphere(crown, 4, [&](glm::vec3 n) {
             // Clumps of leaves: noise in three projections.
-            const float clump = fractalNoise(0.5f + 0.4f * n.x, 0.5f + 0.4f * n.y, 5, 3, seed + i) +
-                                fractalNoise(0.5f + 0.4f * n.y, 0.5f + 0.4f * n.z, 5, 3, seed + i + 40) +
-                                fractalNoise(0.5f + 0.4f * n.z, 0.5f + 0.4f * n.x, 5, 3, seed + i + 80);
-            return size * (0.35f + 0.45f * clump);
+            const float clump = fractalNoise(0.5f + 0.4f * n.x, 0.5f + 0.4f * n.y, 9, 3, seed + i) +
+                                fractalNoise(0.5f + 0.4f * n.y, 0.5f + 0.4f * n.z, 9, 3, seed + i + 40) +
+                                fractalNoise(0.5f + 0.4f * n.z, 0.5f + 0.4f * n.x, 9, 3, seed + i + 80);
+            return size * (0.05f + 0.65f * clump);
         });
     }
     return addMesh(scene, "tree", {std::move(trunk), std::move(crown)});
