@@ -65,7 +65,7 @@ Result<Scene> makeCornell(const BuiltinParams&) {
 
     addCamera(scene, "front", {2.78f, 2.73f, 8.0f}, {2.78f, 2.73f, 0}, 39.3f);
     addCamera(scene, "inside", {0.6f, 3.6f, -0.3f}, {3.6f, 1.6f, -4.2f}, 70);
-    scene.exposure = 1.0f;
+    scene.exposure = 1.5f;
     return scene;
 }
 

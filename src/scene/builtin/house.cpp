@@ -34,7 +34,7 @@ Materials addMaterials(Scene& scene) {
         return addTextured(scene, name, plasterTexture(colour, seed), 2.5f);
     };
     Materials m;
-    m.facade = plaster("facade", {0.36f, 0.28f, 0.18f}, 1);
+    m.facade = plaster("facade", {0.31f, 0.24f, 0.15f}, 1);
     m.plinth = addTextured(scene, "plinth", masonryTexture({0.2f, 0.18f, 0.16f}, {0.12f, 0.12f, 0.11f}, 4, 6, 2), 1.5f);
     m.wood = addTextured(scene, "wood", plankTexture({0.45f, 0.27f, 0.14f}, 3, 3), 0.9f, 0.6f);
     m.planks = addTextured(scene, "planks", plankTexture({0.55f, 0.35f, 0.19f}, 8, 4), 1.6f, 0.6f);
@@ -261,7 +261,7 @@ Result<Scene> makeHouse(const BuiltinParams&) {
     addCamera(scene, "kitchen", {9.0f, 1.65f, 7.3f}, {11.8f, 0.9f, 4.2f}, 68);
     addCamera(scene, "bedroom", {5.6f, kUpper + 1.65f, 4.3f}, {1.5f, kUpper + 0.7f, 6.4f}, 68);
     addCamera(scene, "landing", {6.6f, kUpper + 1.65f, 0.8f}, {7.3f, kUpper + 0.6f, 6.0f}, 68);
-    scene.exposure = 2.2f;
+    scene.exposure = 1.9f;
     return scene;
 }
 
