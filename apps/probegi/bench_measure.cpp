@@ -144,9 +144,11 @@ Result<BenchRound> Bench::round() {
     if (!times) return tl::unexpected(times.error());
     round.update = *times;
 
+    const std::uint64_t fallbacks = m_field->fallbackQueries();
     auto start = Clock::now();
     m_field->irradiance(m_points, m_irradiance);
     round.query = millisecondsSince(start);
+    round.fallbacks = double(m_field->fallbackQueries() - fallbacks);
 
     round.primaryFloor = m_raw.trace(m_primary);
     start = Clock::now();
@@ -180,6 +182,7 @@ Result<void> Bench::growth(BenchResult& result, const BenchProgress& progress) c
     for (const BenchPlan::Volume& volume : m_plan.growth) {
         PlacementDesc placement;
         placement.counts = volume.counts;
+        placement.marginCells = 0;  // the same space for all: coarse grids have wide margins, where rays meet nothing
         const auto grid = placeGrid(m_setup.pose.bounds, placement);
         if (!grid) return tl::unexpected(grid.error());
         FieldDesc desc;

@@ -29,6 +29,7 @@ struct BenchRound {
     UpdateTimes update;       ///< all threads
     double updateAlone = 0;   ///< whole update on one thread
     double query = 0;         ///< the field at every point of the picture
+    double fallbacks = 0;     ///< how many of them had to ask beyond their eight probes (Field::fallbackQueries)
     double primaryFloor = 0;  ///< raw Embree, the rays of the picture
     double picture = 0;
 };

@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# Measures on this machine and puts the table between the marks <!-- bench:begin --> and <!-- bench:end --> of README.md
+# and docs/performance.md. Timings mean something only while nothing else runs.
+set -euo pipefail
+
+usage() {
+    cat <<'TEXT'
+Usage: scripts/bench.sh [SCENE [options of probegi bench]]
+
+Without arguments: Sponza from PROBEGI_SCENES (default ../shared/scenes) with sun and sky, 22x14x32 probes of 144 rays, on
+2 threads; where Sponza is not there, builtin:atrium. Builds the tool (Release) in build/demo first.
+
+Example: scripts/bench.sh
+Example: scripts/bench.sh builtin:house --threads 4 --growth-million
+TEXT
+}
+
+if [[ ${1:-} == -h || ${1:-} == --help ]]; then
+    usage
+    exit 0
+fi
+if (($# > 0)) && [[ $1 != builtin:* ]]; then
+    [[ -f $1 ]] || { echo "bench.sh: '$1' is not a file; give a .glb or .gltf scene." >&2; exit 1; }
+    set -- "$(realpath "$1")" "${@:2}"
+fi
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+scripts/setup.sh build
+cmake -S . -B build/demo -G Ninja -DCMAKE_BUILD_TYPE=Release -DPROBEGI_TESTS=OFF -DPROBEGI_BENCH=OFF --log-level=WARNING
+cmake --build build/demo
+
+sponza=${PROBEGI_SCENES:-../shared/scenes}/sponza/sponza.glb
+if (($# == 0)) && [[ -f $sponza ]]; then
+    set -- "$sponza" --sky 0.6,0.8,1.2 --probes 22x14x32 --rays 144 --threads 2
+fi
+table=$(mktemp)
+trap 'rm -f "$table"' EXIT
+build/demo/apps/probegi/probegi bench "$@" | tee "$table"
+
+for page in README.md docs/performance.md; do
+    if ! grep -q '^<!-- bench:begin -->$' "$page" || ! grep -q '^<!-- bench:end -->$' "$page"; then
+        echo "bench.sh: $page has no lines <!-- bench:begin --> and <!-- bench:end -->; add them where the table belongs." >&2
+        exit 1
+    fi
+    awk -v table="$table" '
+        $0 == "<!-- bench:end -->" { inside = 0 }
+        !inside { print }
+        $0 == "<!-- bench:begin -->" { inside = 1; while ((getline line < table) > 0) print line; close(table) }
+    ' "$page" >"$page.new"
+    mv "$page.new" "$page"
+done
