@@ -57,7 +57,7 @@ glm::vec3 queryOne(const FieldView& view, FieldQuery query) {
     query.position = glm::clamp(query.position, grid.origin, grid.origin + grid.spacing * glm::vec3(grid.counts - 1));
     const glm::vec3 bias =
         kernels::selfShadowBias(query.normal, query.toViewer, view.minSpacing, view.desc->selfShadowBias);
-    const glm::vec3 local = (query.position + bias - grid.origin) * view.inverseSpacing;
+    const glm::vec3 local = (query.position + kernels::kCageBias * bias - grid.origin) * view.inverseSpacing;
     const glm::vec3 base = glm::clamp(glm::floor(local), glm::vec3(0.0f), glm::vec3(grid.counts - 2));
     const glm::vec3 alpha = glm::clamp(local - base, 0.0f, 1.0f);
     const Footprint footprint = footprintOf(*view.irradianceTaps, view.desc->irradianceTexels, query.normal);

@@ -79,7 +79,7 @@ constexpr int kSearch = 2;
 // their moments say of the way and whether they stand in walls; black only where all of them do.
 glm::vec3 queryNeighbours(const FieldView& view, const FieldQuery& query, glm::vec3 bias) {
     const GridDesc& grid = view.desc->grid;
-    const glm::ivec3 base(glm::floor((query.position + bias - grid.origin) * view.inverseSpacing));
+    const glm::ivec3 base(glm::floor((query.position + kernels::kCageBias * bias - grid.origin) * view.inverseSpacing));
     const glm::ivec3 lowest = glm::clamp(base - (kSearch - 1), glm::ivec3(0), grid.counts - 1);
     const glm::ivec3 highest = glm::clamp(base + kSearch, glm::ivec3(0), grid.counts - 1);
     const Footprint footprint = irradianceFootprint(view, query.normal);
@@ -119,9 +119,9 @@ glm::vec3 queryOne(const FieldView& view, FieldQuery query, const Guard& guard) 
     query.position = glm::clamp(query.position, grid.origin, grid.origin + grid.spacing * glm::vec3(grid.counts - 1));
     const glm::vec3 bias =
         kernels::selfShadowBias(query.normal, query.toViewer, view.minSpacing, view.desc->selfShadowBias);
-    // The cage and the trilinear weights are those of the biased point: a point on a wall that runs through a layer of
-    // probes would otherwise lean on that layer alone.
-    const glm::vec3 local = (query.position + bias - grid.origin) * view.inverseSpacing;
+    // The cage and the trilinear weights belong to a point a little off the surface: on a wall that runs through a
+    // layer of probes the answer would otherwise lean on that layer alone.
+    const glm::vec3 local = (query.position + kernels::kCageBias * bias - grid.origin) * view.inverseSpacing;
     const glm::vec3 base = glm::clamp(glm::floor(local), glm::vec3(0.0f), glm::vec3(grid.counts - 2));
     const glm::vec3 alpha = glm::clamp(local - base, 0.0f, 1.0f);
     const glm::vec3 fromBase = query.position - (grid.origin + base * grid.spacing);

@@ -16,6 +16,11 @@ KERNEL_CONST float kMinChebyshev = 0.05f;
 // Weights below this are crushed.
 KERNEL_CONST float kCrushBelow = 0.2f;
 
+// Share of the self-shadow bias by which a point is moved before its cage is chosen. With all of it, surfaces take the
+// light of the room's middle (Cornell box 10 % too bright on average); with none, a wall that coincides with a layer of
+// probes leaks three times as much. A quarter has nearly the best of both.
+KERNEL_CONST float kCageBias = 0.25f;
+
 // Share of backface hits at which a probe begins to count as inside geometry, and over which it ceases to be used.
 KERNEL_CONST float kInsideShare = 0.25f;
 KERNEL_CONST float kInsideShareEdge = 0.05f;
