@@ -99,6 +99,17 @@ Result<std::vector<LoadedSetup>> loadAll(const ReportOptions& options) {
     return setups;
 }
 
+/// What a terminal shows of a scene: the page has the rest.
+void printKeyNumbers(const nlohmann::json& scene) {
+    const auto& methods = scene["methods"];
+    const auto& field = methods["ddgi"]["field"];
+    fmt::print("{}: {} probes, {:.0f} ms an update; at the probes {:.3f} of the reference's light (median)\n",
+               scene["scene"].get<std::string>(), scene["probes"].get<int>(), field["updateMs"]["total"].get<double>(),
+               field["ratio"]["median"].get<double>());
+    fmt::print("  FLIP error against the path tracer: {:.3f} without GI, {:.3f} with the field\n",
+               methods["none"]["picture"]["flip"].get<double>(), methods["ddgi"]["picture"]["flip"].get<double>());
+}
+
 Result<void> writeReport(const ReportOptions& options, const CLI::App& command) {
     const fs::path folder(options.folder);
     const auto context = makeContext(options.scene.threads);
@@ -124,6 +135,7 @@ Result<void> writeReport(const ReportOptions& options, const CLI::App& command) 
     }
     if (auto written = writeText(folder / "report.json", numbers.dump(2) + "\n"); !written) return written;
     if (auto written = writeText(folder / "report.html", reportHtml(report)); !written) return written;
+    for (const nlohmann::json& scene : numbers) printKeyNumbers(scene);
     fmt::print("{}\n", (folder / "report.html").string());
     return {};
 }
