@@ -44,7 +44,7 @@ Result<bool> runGame() {
     const auto tracer = makeEmbreeTracer(*context, scene, pose);
     if (!tracer) return tl::unexpected(tracer.error());
     FieldDesc desc;
-    desc.grid = {.origin = {-0.5f, -0.5f, -0.5f}, .spacing = glm::vec3(1), .counts = {8, 5, 6}};
+    desc.grid = {.origin = glm::vec3(-0.25f), .spacing = glm::vec3(0.5f), .counts = {14, 8, 10}};
     auto field = Field::create(*context, desc);
     if (!field) return tl::unexpected(field.error());
 
