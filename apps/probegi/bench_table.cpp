@@ -17,7 +17,7 @@ namespace {
 
 // Goals: a ratio at most (or at least) this.
 constexpr double kTraceGoal = 1.15, kBlendGoal = 0.25, kUpdateGoal = 4, kQueryGoal = 1, kPictureGoal = 10;
-constexpr double kBytesGoal = 1600, kScalingGoal = 1.8, kGrowthGoal = 1.05;
+constexpr double kBytesGoal = 1600, kScalingGoal = 1.8, kGrowthGoal = 1.1;
 
 // SDFDDGI paper, table 1: 22x14x32 probes on Sponza, 1920x1080. DDGI paper, figure 8: trace and update, no probe
 // asleep.
