@@ -20,7 +20,7 @@ enum class Method { none, leaky, ddgi, reference };
 
 constexpr int kDefaultReferenceSamples = 64;
 constexpr float kTolerance = 0.01f;  // relative change at which a field counts as converged
-constexpr int kMaxFrames = 256;
+constexpr int kMaxFrames = 128;
 
 struct RenderOptions {
     SceneOptions scene;
