@@ -126,9 +126,10 @@ double nanosecondsPerRay(const BenchGrowth& g) {
     return median(g.ms) * 1e6 / (double(g.probes) * g.rays);
 }
 
+// With more digits than the goals have, so that what just misses is seen to miss.
 std::string decimal(std::optional<double> value) {
     if (!value) return {};
-    return *value >= 100 ? fmt::format("{:.0f}", *value) : fmt::format("{:.2f}", *value);
+    return *value >= 100 ? fmt::format("{:.0f}", *value) : fmt::format("{:.3f}", *value);
 }
 
 // Cells of equal width per column; the first row is the header.
@@ -184,8 +185,8 @@ std::string benchMarkdown(const BenchResult& result, const std::string& sceneNam
     std::vector<std::vector<std::string>> cells{{"measured", "figure", "ratio", "to", "goal", "verdict", "papers"}};
     for (const BenchRow& row : benchRows(result))
         cells.push_back({row.name, row.figure, decimal(row.ratio), row.against,
-                         row.goal ? (row.atLeast ? ">= " : "<= ") + decimal(row.goal) : std::string(), row.verdict(),
-                         row.papers});
+                         row.goal ? fmt::format("{} {:g}", row.atLeast ? ">=" : "<=", *row.goal) : std::string(),
+                         row.verdict(), row.papers});
     text += table(cells) + "\n" +
             fmt::format(fmt::runtime(kNotes), result.rounds.size(), result.rays() * 1e-6, result.probes);
     if (result.growth.empty()) return text;
