@@ -36,8 +36,8 @@ struct FieldDesc {
     float visibilityHysteresis = 0.97f;  ///< the same for distance moments, 0..0.999
     float visibilityExponent = 100.0f;   ///< power of the cosine that weights distances, 1..500
     float selfShadowBias = 0.3f;         ///< TunableShadowBias of eq. 2, 0..2
-    float significantChange = 0.25f;     ///< Listing 3, on encoded irradiance over its maximum; 0 disables
-    float newDistribution = 0.8f;        ///< Listing 3, same scale; 0 disables
+    float significantChange = 0.25f;     ///< Listing 3, 0..1, change of the encoded texel over the larger; 0 disables
+    float newDistribution = 0.8f;        ///< Listing 3, 0..1, same scale; 0 disables
     BackfaceRule backfaceRule = BackfaceRule::zeroSample;
     LeakGuard guard = LeakGuard::moments;
     std::uint64_t seed = 1;  ///< of the per-frame ray rotation and the storage dither
@@ -45,7 +45,7 @@ struct FieldDesc {
 
 /// What one ray of one probe brought home. This is the seam for engines with a ray tracer of their own.
 struct RayDatum {
-    glm::vec3 radiance{0.0f};  ///< W sr^-1 m^-2 arriving at the probe; not finite or negative: treated as 0
+    glm::vec3 radiance{0.0f};  ///< W sr^-1 m^-2 arriving at the probe; a channel not in 0..1e30 counts as 0
     float distance = 0.0f;     ///< metres; negative: minus the distance to a backface; a miss: anything >= 1e27
 };
 
@@ -71,6 +71,7 @@ enum class FieldEvent : std::uint8_t {
     largeObjectChange,  ///< irradiance hysteresis -50 % for 10 frames, visibility hysteresis -50 % for 7 frames
 };
 
+/// Bytes that a field holds.
 struct FieldMemory {
     std::size_t irradianceBytes = 0;
     std::size_t visibilityBytes = 0;
@@ -98,19 +99,20 @@ public:
     std::span<const glm::vec3> rayDirections() const noexcept;
 
     /// One update from the caller's own rays: datum [probe * raysPerProbe + ray] came along rayDirections()[ray] from
-    /// probePosition(desc().grid, probe). Errors: invalidArgument (wrong length), cancelled.
+    /// probePosition(desc().grid, probe). Errors: invalidArgument (wrong length), outOfMemory.
     Result<UpdateTimes> update(std::span<const RayDatum> rayData);
 
-    /// One update with the library's pipeline: trace, shade with `lighting` and last frame's field, blend.
-    /// Errors: cancelled.
+    /// One update with the library's pipeline: trace, shade with `lighting` and last frame's field, blend. All surfaces
+    /// reflect as Lambert of their base colour, at most 0.98 of it: a closed room of albedo 1 has no steady state.
+    /// Errors: outOfMemory.
     Result<UpdateTimes> update(const Tracer& tracer, const Lighting& lighting);
 
     /// For pictures of a scene that stands still: updates until the irradiance has changed by less than `tolerance`
     /// (relative, mean over probes) since half as many updates, or maxFrames is reached. Update k blends with weight
     /// 3 / (k + 2), in linear instead of encoded space: the light of early updates, which lacks bounces, is forgotten
     /// like 1 / k^3 while noise falls like 1 / sqrt(k), and the mean is unbiased.
-    /// Returns the number of updates done. Errors: cancelled, invalidArgument.
-    /// `onUpdate`, where given, receives the times of every update.
+    /// `tolerance` > 0, maxFrames >= 1; `onUpdate`, where given, receives the times of every update.
+    /// Returns the number of updates done. Errors: cancelled, invalidArgument, outOfMemory.
     Result<int> converge(const Tracer& tracer, const Lighting& lighting, float tolerance = 0.03f, int maxFrames = 256,
                          const std::function<void(const UpdateTimes&)>& onUpdate = {});
 
@@ -127,11 +129,12 @@ public:
     /// The same for many points, on all threads. The spans must be equally long (asserted).
     void irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> out) const;
 
-    /// Queries so far whose eight probes all stood in walls and that wider neighbours answered: above a few per cent
-    /// the grid is too coarse for the scene.
+    /// Queries so far, those of updates included, whose eight probes all stood in walls or did not see the point, so
+    /// that wider neighbours answered: above a few per cent the grid is too coarse for the scene.
     std::uint64_t fallbackQueries() const noexcept;
 
-    /// Share of probe `probe`'s rays that hit backfaces, 0..1; above 0.3 the probe stands in a wall and is not used.
+    /// Share of probe `probe`'s hits that were on backfaces, 0..1; above 0.3 the probe stands in a wall and is not
+    /// used.
     float probeBackfaceShare(int probe) const noexcept;
 
     /// What probe `probe` stores: E in W m^-2 for a surface facing `normal` at the probe itself.

@@ -181,7 +181,7 @@ FieldMemory Field::memory() const noexcept {
             bytes(m.rayData) + bytes(m.weights.irradiance) + bytes(m.weights.visibility)};
 }
 
-Result<UpdateTimes> Field::update(std::span<const RayDatum> rayData) {
+Result<UpdateTimes> Field::update(std::span<const RayDatum> rayData) try {
     const std::size_t expected = m_impl->layout.probes * m_impl->layout.rays;
     if (rayData.size() != expected)
         return fail(
@@ -191,6 +191,8 @@ Result<UpdateTimes> Field::update(std::span<const RayDatum> rayData) {
     m_impl->blend(rayData, m_impl->paperBlend());
     const double elapsed = millisecondsSince(start);
     return UpdateTimes{0, 0, elapsed, elapsed};
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, kNoRayDataMemory);
 }
 
 Result<UpdateTimes> Field::update(const Tracer& tracer, const Lighting& lighting) try {
