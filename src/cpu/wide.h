@@ -27,9 +27,14 @@ struct Real3 {
 };
 
 inline Real select(const Mask& condition, const Real& ifTrue, const Real& ifFalse) {
+#ifdef __clang__
+    // Compiled by clang 14 for AVX-512, where() of libstdc++ 12 assigns nothing.
+    return Real([&](auto lane) { return condition[lane] ? ifTrue[lane] : ifFalse[lane]; });
+#else
     Real result = ifFalse;
     stdx::where(condition, result) = ifTrue;
     return result;
+#endif
 }
 
 inline Real signNotZero(const Real& x) {
