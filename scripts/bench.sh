@@ -8,7 +8,8 @@ usage() {
 Usage: scripts/bench.sh [SCENE [options of probegi bench]]
 
 Without arguments: Sponza from PROBEGI_SCENES (default ../shared/scenes) with sun and sky, 22x14x32 probes of 144 rays, on
-2 threads; where Sponza is not there, builtin:atrium. Builds the tool (Release) in build/demo first.
+2 threads, and volumes of up to a million probes (2 GB of memory); where Sponza is not there, builtin:atrium. Builds the
+tool (Release) in build/demo first.
 
 Example: scripts/bench.sh
 Example: scripts/bench.sh builtin:house --threads 4 --growth-million
@@ -30,7 +31,7 @@ cmake --build build/demo
 
 sponza=${PROBEGI_SCENES:-../shared/scenes}/sponza/sponza.glb
 if (($# == 0)) && [[ -f $sponza ]]; then
-    set -- "$sponza" --sky 0.6,0.8,1.2 --probes 22x14x32 --rays 144 --threads 2
+    set -- "$sponza" --sky 0.6,0.8,1.2 --probes 22x14x32 --rays 144 --threads 2 --growth-million
 fi
 table=$(mktemp)
 trap 'rm -f "$table"' EXIT
