@@ -21,7 +21,7 @@ benchmark::Counter perProbe(const RoomField& field, const benchmark::State& stat
 void blendAll(benchmark::State& state) {
     RoomField field(LeakGuard::moments, kCounts, int(state.range(0)));
     BlendWeights weights;
-    makeBlendWeights(field.context(), field.desc(), field.layout(), field.directions(), weights);
+    makeBlendWeights(field.context(), field.desc(), field.directions(), weights);
     for (auto _ : state) {
         blendProbes(field.context(), field.desc(), field.layout(), weights, field.rayData(), {{0.97f, 0.97f}},
                     field.storage());
@@ -35,7 +35,7 @@ void frameWeights(benchmark::State& state) {
     RoomField field(LeakGuard::moments, {2, 2, 2}, int(state.range(0)));
     BlendWeights weights;
     for (auto _ : state) {
-        makeBlendWeights(field.context(), field.desc(), field.layout(), field.directions(), weights);
+        makeBlendWeights(field.context(), field.desc(), field.directions(), weights);
         benchmark::ClobberMemory();
     }
 }
@@ -45,7 +45,7 @@ void products(benchmark::State& state) {
     constexpr std::size_t kProbes = 32;
     RoomField field(LeakGuard::moments, {2, 2, 2}, int(state.range(0)));
     BlendWeights weights;
-    makeBlendWeights(field.context(), field.desc(), field.layout(), field.directions(), weights);
+    makeBlendWeights(field.context(), field.desc(), field.directions(), weights);
     Matrix radiance, distance, irradiance, visibility;
     radiance.resize(3 * kProbes, field.layout().rays);
     distance.resize(2 * kProbes, field.layout().rays);

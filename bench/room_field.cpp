@@ -60,7 +60,7 @@ RoomField::RoomField(LeakGuard guard, glm::ivec3 counts, int raysPerProbe)
         for (const glm::vec3& direction : m_directions)
             m_rayData.push_back(datum(probePosition(m_desc.grid, int(probe)), direction));
     BlendWeights weights;
-    makeBlendWeights(m_context, m_desc, m_layout, m_directions, weights);
+    makeBlendWeights(m_context, m_desc, m_directions, weights);
     blendProbes(m_context, m_desc, m_layout, weights, m_rayData, {{0.0f, 0.0f}}, m_storage);
 }
 

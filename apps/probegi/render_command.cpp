@@ -19,8 +19,6 @@ namespace {
 enum class Method { none, leaky, ddgi, reference };
 
 constexpr int kDefaultReferenceSamples = 64;
-constexpr float kTolerance = 0.01f;  // relative change at which a field counts as converged
-constexpr int kMaxFrames = 128;
 
 struct RenderOptions {
     SceneOptions scene;
@@ -67,7 +65,7 @@ Result<std::optional<Field>> makeField(const Context& context, const Tracer& tra
     stats.raysPerProbe = desc.raysPerProbe;
     const auto record = [&](const UpdateTimes& times) { stats.updates.push_back(times); };
     if (!options.frames) {
-        const auto done = field->converge(tracer, setup.lighting, kTolerance, kMaxFrames, record);
+        const auto done = field->converge(tracer, setup.lighting, kConvergeTolerance, kConvergeMaxUpdates, record);
         if (!done) return tl::unexpected(done.error());
         return std::move(*field);
     }

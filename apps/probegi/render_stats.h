@@ -7,6 +7,11 @@
 
 namespace probegi::tool {
 
+/// When the tool's pictures count a field as converged: relative change, and a cap beyond which the noise that is left
+/// is below that of the reference. Stricter than Field::converge's own default, which is for engines.
+inline constexpr float kConvergeTolerance = 0.01f;
+inline constexpr int kConvergeMaxUpdates = 128;
+
 /// What --stats writes. A method without a field has no probes and no updates.
 struct RenderStats {
     int probes = 0;

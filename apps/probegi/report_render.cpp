@@ -10,9 +10,6 @@ namespace probegi::tool {
 
 namespace {
 
-constexpr float kTolerance = 0.01f;
-constexpr int kMaxFrames = 128;  // noise that 256 would remove is below that of the reference
-
 class Stopwatch {
 public:
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count(); }
@@ -67,7 +64,7 @@ Result<FieldResult> runField(Field& field, const Tracer& tracer, const Lighting&
         result.updates = *settings.frames;
     } else {
         const auto record = [&](const UpdateTimes& update) { times.push_back(update); };
-        const auto updates = field.converge(tracer, lighting, kTolerance, kMaxFrames, record);
+        const auto updates = field.converge(tracer, lighting, kConvergeTolerance, kConvergeMaxUpdates, record);
         if (!updates) return tl::unexpected(updates.error());
         result.updates = *updates;
     }

@@ -82,7 +82,7 @@ struct Field::Impl {
 
     void blend(std::span<const RayDatum> data, BlendFrame how) {
         how.ditherSeed = kernels::hashCombine(seed() ^ 0x6a09e667u, std::uint32_t(frame));
-        makeBlendWeights(context, desc, layout, directions, weights);
+        makeBlendWeights(context, desc, directions, weights);
         blendProbes(context, desc, layout, weights, data, how, storage);
         events.advance();
         ++frame;

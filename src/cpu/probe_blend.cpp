@@ -130,8 +130,8 @@ FieldStorage::FieldStorage(const FieldLayout& layout)
       visibility(layout.probes * layout.visibilityTexels),
       backfaceShare(layout.probes) {}
 
-void makeBlendWeights(const Context& context, const FieldDesc& desc, const FieldLayout&,
-                      std::span<const glm::vec3> directions, BlendWeights& weights) {
+void makeBlendWeights(const Context& context, const FieldDesc& desc, std::span<const glm::vec3> directions,
+                      BlendWeights& weights) {
     fillWeights(context, desc.irradianceTexels, directions, weights.irradiance,
                 [](glm::vec3 n, glm::vec3 w) { return kernels::irradianceWeight(n, w); });
     fillWeights(context, desc.visibilityTexels, directions, weights.visibility,

@@ -16,8 +16,8 @@ struct BlendWeights {
 };
 
 /// Fills the weights for a frame's directions (eq. 1, and its power-cosine form for distances).
-void makeBlendWeights(const Context& context, const FieldDesc& desc, const FieldLayout& layout,
-                      std::span<const glm::vec3> directions, BlendWeights& weights);
+void makeBlendWeights(const Context& context, const FieldDesc& desc, std::span<const glm::vec3> directions,
+                      BlendWeights& weights);
 
 /// How the new values join the old ones.
 struct BlendFrame {

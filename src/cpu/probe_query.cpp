@@ -152,6 +152,7 @@ glm::vec3 queryOne(const FieldView& view, FieldQuery query, const Guard& guard) 
     for (int lane = 0; lane < wide::kLanes; ++lane) {
         const std::size_t texels = std::size_t(cage.probes[std::size_t(lane)]) * std::size_t(size * size);
         const Texel stored = storedIrradiance(view.irradiance + 3 * texels, footprint);
+        // kernels::decodeToBlendSpace, four channels abreast.
         sum += float(weight[lane]) * (stored * stored * wide::stdx::sqrt(stored));
     }
     if (weightSum >= kDoubtful) {

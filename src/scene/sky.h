@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "kernels/language.h"
 #include "probegi/scene.h"
 
 namespace probegi {
@@ -12,10 +13,9 @@ namespace probegi {
 /// image, wrapping around horizontally.
 inline glm::vec3 skyRadiance(const Sky& sky, glm::vec3 direction) {
     if (!sky.textured()) return sky.radiance;
-    constexpr float kPi = 3.14159265f;
     const int w = sky.image.width, h = sky.image.height;
-    const float u = std::atan2(direction.x, -direction.z) / (2 * kPi) + 0.5f;
-    const float v = std::acos(std::clamp(direction.y, -1.0f, 1.0f)) / kPi;
+    const float u = std::atan2(direction.x, -direction.z) / (2 * kernels::kPi) + 0.5f;
+    const float v = std::acos(std::clamp(direction.y, -1.0f, 1.0f)) / kernels::kPi;
     const float x = u * float(w) - 0.5f, y = std::clamp(v * float(h) - 0.5f, 0.0f, float(h - 1));
     const int x0 = int(std::floor(x)), y0 = int(y), y1 = std::min(y0 + 1, h - 1);
     const float fx = x - float(x0), fy = y - float(y0);

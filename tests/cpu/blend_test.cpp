@@ -38,7 +38,7 @@ struct BlendInput {
     void blend(int threads = 2, BlendFrame frame = {{0, 0}, false, 5}) {
         const Context context = *Context::create({.threads = threads});
         BlendWeights weights;
-        makeBlendWeights(context, desc, layout, directions, weights);
+        makeBlendWeights(context, desc, directions, weights);
         blendProbes(context, desc, layout, weights, data, frame, storage);
     }
 
