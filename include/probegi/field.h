@@ -123,11 +123,12 @@ public:
     void setGuard(LeakGuard guard) noexcept;
 
     /// Irradiance E in W m^-2. Unchecked and noexcept: vectors must be finite and unit. Outside the grid the nearest
-    /// cell answers.
+    /// cell answers. A field on a GPU that was lost answers with not-a-number.
     glm::vec3 irradiance(const FieldQuery& query) const noexcept;
 
     /// The same for many points, on all threads. The spans must be equally long (asserted).
-    void irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> out) const;
+    /// A field on the CPU never fails. Errors: deviceLost, outOfMemory.
+    Result<void> irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> out) const;
 
     /// Queries so far, those of updates included, whose eight probes all stood in walls or did not see the point, so
     /// that wider neighbours answered: above a few per cent the grid is too coarse for the scene.

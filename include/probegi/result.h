@@ -16,6 +16,7 @@ enum class ErrorCode {
     writeFailed,      ///< the output could not be written; nothing was left half-written
     outOfMemory,      ///< an allocation or a device refused
     cancelled,        ///< the progress callback asked to stop
+    deviceLost,       ///< the GPU stopped answering; make a new device, the CPU backend still works
 };
 
 /// A failure: a code for programs, one sentence for people.

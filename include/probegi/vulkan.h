@@ -1,0 +1,301 @@
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "probegi/field.h"
+#include "probegi/render.h"
+
+/// The Vulkan 1.3 backend. Two ways in:
+///
+/// An engine hands over its device (Device::adopt) and records passes into its own command buffers: ProbeVolume,
+/// GpuScene, GpuLighting. Recording never submits, waits or maps memory; the barriers between the library's own passes
+/// are recorded with them, and each record function says what the caller must order before and after it.
+///
+/// A program without a device opens one (Device::open) and uses what the CPU backend offers, on the GPU: makeTracer(),
+/// makeField(), renderPicture(). These submit and wait.
+namespace probegi::vulkan {
+
+/// One Vulkan device of this machine.
+struct DeviceInfo {
+    int index = 0;       ///< for OpenDesc::device
+    std::string name{};  ///< as the driver gives it
+    std::string driver{};
+    std::string type{};  ///< "discrete GPU", "integrated GPU", "virtual GPU", "software", "other"
+    std::string api{};   ///< Vulkan version, "1.3.230"
+    bool rayQuery = false;
+    std::string missing{};  ///< what ProbeGI needs and the device lacks; empty: usable
+    bool usable() const { return missing.empty(); }
+};
+
+/// All devices, in the order of the loader. Errors: unsupported (no Vulkan loader on this machine).
+Result<std::vector<DeviceInfo>> listDevices();
+
+/// What an allocation will be used for.
+enum class MemoryUse : std::uint8_t {
+    device,    ///< by the GPU only
+    upload,    ///< written by the CPU, read by copies; must be host visible, coherent and mapped
+    readback,  ///< written by copies, read by the CPU; must be host visible, coherent and mapped
+};
+
+struct Allocation {
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0;   ///< bytes
+    void* mapped = nullptr;    ///< where `offset` is mapped, for upload and readback
+    void* userData = nullptr;  ///< the allocator's own
+};
+
+/// An engine's memory allocator. Empty functions: the library calls vkAllocateMemory for each buffer and image, about
+/// a dozen for a volume and two dozen for a scene. Memory for buffers must be allocated with
+/// VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT.
+struct Allocator {
+    std::function<VkResult(const VkMemoryRequirements&, MemoryUse, Allocation&)> allocate{};
+    std::function<void(const Allocation&)> free{};
+};
+
+/// An engine's device, as it was made. All handles stay the engine's and must outlive every object of this library.
+///
+/// Needed: Vulkan 1.3 on instance and device; the features synchronization2, bufferDeviceAddress, scalarBlockLayout
+/// and shaderStorageImageExtendedFormats; a queue family with compute; the format R16G16B16A16_SFLOAT and R16G16_UNORM
+/// as storage images and as sampled images with linear filter. Used where enabled: VK_KHR_acceleration_structure with
+/// VK_KHR_ray_query, VK_EXT_debug_utils.
+struct AdoptDesc {
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    std::uint32_t queueFamily = 0;  ///< of the command buffers that passes are recorded into
+    /// What the device was made with: its extensions and features (pNext chain or pEnabledFeatures) are read during
+    /// the call. Required.
+    const VkDeviceCreateInfo* createInfo = nullptr;
+    std::span<const char* const> instanceExtensions{};        ///< enabled ones
+    PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  ///< null: that of the system's loader
+    Allocator allocator{};
+    /// Folder in which compiled pipelines are kept between runs; empty: they are compiled anew. A damaged file in it is
+    /// ignored, a folder that cannot be written is reported to the context's log.
+    std::filesystem::path cacheFolder{};
+};
+
+/// How the library opens a device of its own.
+struct OpenDesc {
+    /// An index or part of a name, as listDevices() gives them; empty: the first usable discrete GPU, or else
+    /// integrated, virtual, software one.
+    std::string device{};
+    bool rayQuery = true;     ///< enable ray query where the device has it
+    bool validation = false;  ///< Khronos validation layer with synchronisation validation; messages go to the log
+    std::filesystem::path cacheFolder{};  ///< as AdoptDesc::cacheFolder
+};
+
+/// A device and what the library keeps for it: functions, pipelines, memory. Cheap to copy (shared handle). Calls on
+/// one Device from several threads must be ordered by the caller; two Devices are independent.
+class Device {
+public:
+    /// Errors: invalidArgument (a handle is missing), unsupported (names the missing version, feature or format),
+    /// outOfMemory.
+    static Result<Device> adopt(const Context& context, const AdoptDesc& desc);
+    /// Errors: unsupported (no loader, no device, no such device, or what it lacks), outOfMemory.
+    static Result<Device> open(const Context& context, const OpenDesc& desc = {});
+
+    const DeviceInfo& info() const noexcept;
+    bool rayQuery() const noexcept;  ///< whether TracerKind::rayQuery is possible
+    /// Validation messages so far (OpenDesc::validation).
+    int validationMessages() const noexcept;
+    /// Writes the compiled pipelines to the cache folder; done by the destructor of the last handle as well.
+    /// Errors: writeFailed.
+    Result<void> savePipelines() const;
+
+    struct Impl;
+    Impl& impl() const noexcept { return *m_impl; }
+
+private:
+    explicit Device(std::shared_ptr<Impl> impl) : m_impl(std::move(impl)) {}
+    std::shared_ptr<Impl> m_impl;
+};
+
+struct PassTime {
+    std::string name{};
+    double milliseconds = 0;
+};
+
+/// GPU timestamps around passes. Give one to record functions, read it once the command buffer has finished.
+class Profiler {
+public:
+    /// `maxPasses` 1..1024. Errors: outOfMemory. A queue family without timestamps gives an empty list, not an error.
+    static Result<Profiler> create(const Device& device, int maxPasses = 64);
+    Profiler(Profiler&&) noexcept;
+    Profiler& operator=(Profiler&&) noexcept;
+    ~Profiler();
+
+    /// Forgets what was recorded. Record it before the passes of each frame.
+    void recordReset(VkCommandBuffer commands);
+    /// Encloses what is recorded between the two calls; passes may not nest. Beyond maxPasses they are not timed.
+    void recordBegin(VkCommandBuffer commands, const char* name);
+    void recordEnd(VkCommandBuffer commands);
+    /// Milliseconds of each pass, in order. Unchecked: the command buffer must have finished. Errors: deviceLost.
+    Result<std::vector<PassTime>> read() const;
+
+    struct Impl;
+
+private:
+    explicit Profiler(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> m_impl;
+};
+
+/// Second half of the first axis: how triangles are traced on the GPU.
+enum class TracerKind : std::uint8_t {
+    automatic,  ///< ray query where the device has it, else the BVH
+    bvh,        ///< the library's own wide, quantised BVH in compute: any device
+    rayQuery,   ///< VK_KHR_ray_query
+};
+
+struct GpuSceneDesc {
+    TracerKind tracer = TracerKind::automatic;
+    /// Keep the instances of animated nodes apart, so that recordPose() can move them; otherwise meshes that are placed
+    /// once are merged, which traces a little faster.
+    bool movable = false;
+};
+
+/// A scene's triangles, materials and textures in GPU memory, with what the tracer needs to find hits.
+class GpuScene {
+public:
+    /// Builds the BVH on the context's threads, allocates, and fills staging memory. The scene must be valid; it is
+    /// read during the call only. Errors: outOfMemory, unsupported (ray query asked for and not there).
+    static Result<GpuScene> create(const Context& context, const Device& device, const Scene& scene,
+                                   const ScenePose& pose, const GpuSceneDesc& desc = {});
+    GpuScene(GpuScene&&) noexcept;
+    GpuScene& operator=(GpuScene&&) noexcept;
+    ~GpuScene();
+
+    /// Copies everything to the GPU and builds acceleration structures. Once, before any other use. Ends with a barrier
+    /// to compute shaders.
+    void recordUpload(VkCommandBuffer commands);
+    /// Frees the staging memory. The command buffer of recordUpload() must have finished.
+    void releaseStaging() noexcept;
+    /// Moves the instances of animated nodes (GpuSceneDesc::movable) and refits the top level. Orders itself against
+    /// compute work before and after it in the queue. Errors: invalidArgument (the pose is of another scene).
+    Result<void> recordPose(VkCommandBuffer commands, const ScenePose& pose);
+
+    TracerKind tracer() const noexcept;  ///< never automatic
+    Bounds bounds() const noexcept;
+    std::size_t bytes() const noexcept;  ///< of GPU memory, without staging
+
+    struct Impl;
+    Impl& impl() const noexcept { return *m_impl; }
+
+private:
+    explicit GpuScene(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> m_impl;
+};
+
+/// Punctual lights and sky in GPU memory.
+class GpuLighting {
+public:
+    /// Room for at least `maxLights` lights (more where the lighting has more). Errors: outOfMemory.
+    static Result<GpuLighting> create(const Device& device, const Lighting& lighting, int maxLights = 16);
+    GpuLighting(GpuLighting&&) noexcept;
+    GpuLighting& operator=(GpuLighting&&) noexcept;
+    ~GpuLighting();
+
+    /// As GpuScene's.
+    void recordUpload(VkCommandBuffer commands);
+    void releaseStaging() noexcept;
+    /// New lights and a new factor for the sky, from the command buffer itself. The sky's image stays as it was made.
+    /// Errors: invalidArgument (more lights than there is room for).
+    Result<void> recordUpdate(VkCommandBuffer commands, const Lighting& lighting);
+    std::size_t bytes() const noexcept;
+
+    struct Impl;
+    Impl& impl() const noexcept { return *m_impl; }
+
+private:
+    explicit GpuLighting(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> m_impl;
+};
+
+/// Descriptors that `probegi/query.glsl` reads, from `PROBEGI_BINDING` on, in this order.
+inline constexpr std::uint32_t kQueryBindings = 4;
+
+/// A volume of probes on the GPU: atlases, and the passes that update and query them. The same field as the CPU's:
+/// same rays in, same irradiance out.
+class ProbeVolume {
+public:
+    /// Errors: invalidArgument (as Field::create), unsupported (an axis has more probes than the device's images have
+    /// texels for), outOfMemory.
+    static Result<ProbeVolume> create(const Device& device, const FieldDesc& desc);
+    ProbeVolume(ProbeVolume&&) noexcept;
+    ProbeVolume& operator=(ProbeVolume&&) noexcept;
+    ~ProbeVolume();
+
+    const FieldDesc& desc() const noexcept;
+    int frame() const noexcept;           ///< updates recorded so far
+    FieldMemory memory() const noexcept;  ///< of GPU memory
+    /// As Field::rayDirections: of the coming update.
+    std::span<const glm::vec3> rayDirections() const noexcept;
+    void notify(FieldEvent event) noexcept;
+    void setGuard(LeakGuard guard) noexcept;  ///< of passes recorded from now on
+
+    /// Clears the probes. Once, before any other use.
+    void recordClear(VkCommandBuffer commands);
+
+    /// One update with the library's rays: trace, shade with the lighting and last frame's field, blend. Orders itself
+    /// after earlier compute and fragment reads of this volume in the queue, and before later ones. Errors:
+    /// outOfMemory (the ray data's buffer, made by the first call).
+    Result<void> recordUpdate(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,
+                              Profiler* profiler = nullptr);
+
+    /// One update from the caller's own rays: RayDatum (16 bytes) [probe * raysPerProbe + ray] at `offset` of a storage
+    /// buffer, along rayDirections(). The caller makes the data visible to compute shader reads. `offset`: a multiple
+    /// of the device's minStorageBufferOffsetAlignment.
+    void recordUpdate(VkCommandBuffer commands, VkBuffer rayData, VkDeviceSize offset = 0,
+                      Profiler* profiler = nullptr);
+
+    /// Irradiance at `count` points. `queries`: FieldQuery (36 bytes each); `irradiance`: vec3 (12 bytes each) in W
+    /// m^-2; both storage buffers at offset 0. The caller orders its own buffers before and after: compute shader.
+    void recordQuery(VkCommandBuffer commands, VkBuffer queries, VkBuffer irradiance, std::uint32_t count,
+                     Profiler* profiler = nullptr);
+
+    /// The kQueryBindings layout bindings of `probegi/query.glsl`, for the given stages, from `firstBinding` on: the
+    /// volume's constants (uniform buffer), the irradiance and visibility atlases (combined image samplers), the
+    /// probes' states (storage buffer).
+    static std::array<VkDescriptorSetLayoutBinding, kQueryBindings> queryBindings(std::uint32_t firstBinding,
+                                                                                  VkShaderStageFlags stages) noexcept;
+    /// Writes them into a descriptor set of the caller. Valid for the life of the volume.
+    void writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBinding) const;
+
+    struct Impl;
+    Impl& impl() const noexcept { return *m_impl; }
+
+private:
+    explicit ProbeVolume(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> m_impl;
+};
+
+/// Triangles traced on the GPU: closestHits(), occluded() and surfaces() upload, dispatch and wait, so they want large
+/// batches; a Field of the same device traces without leaving the GPU. After a lost device every ray misses, and the
+/// next call that returns a Result fails. The scene must be valid and outlive the tracer.
+/// Errors: outOfMemory, unsupported.
+Result<std::unique_ptr<Tracer>> makeTracer(const Context& context, const Device& device, const Scene& scene,
+                                           const ScenePose& pose, const GpuSceneDesc& desc = {});
+
+/// A Field whose passes run on the GPU. Its update() accepts any Tracer: with one of makeTracer() on the same device
+/// everything stays on the GPU, with another the rays are traced and shaded by the CPU and uploaded.
+/// Errors: as ProbeVolume::create.
+Result<Field> makeField(const Context& context, const Device& device, const FieldDesc& desc);
+
+/// As probegi::renderPicture, on the GPU: primary rays, direct light with shadow rays, query, resolve. `tracer` must be
+/// one of makeTracer() and `field` (may be null) one of makeField(), both on this device.
+/// Errors: invalidArgument (size; tracer or field of another backend), outOfMemory, deviceLost, cancelled.
+Result<RenderedPicture> renderPicture(const Context& context, const Device& device, const Tracer& tracer,
+                                      const Lighting& lighting, const Field* field, const PictureDesc& desc);
+
+/// 8-bit sRGB through the tone map, four bytes a pixel, on the GPU. Errors: outOfMemory, deviceLost.
+Result<std::vector<std::uint8_t>> toneMapImage(const Device& device, const HdrImage& image, const ToneMap& toneMap);
+
+}  // namespace probegi::vulkan

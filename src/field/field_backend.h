@@ -1,0 +1,49 @@
+#pragma once
+
+#include "field/hysteresis.h"
+#include "probegi/field.h"
+
+namespace probegi {
+
+/// One update as the backend sees it: what Field's books say of the coming frame.
+struct UpdateFrame {
+    const FieldDesc& desc;                  ///< with the guard of the day
+    std::span<const glm::vec3> directions;  ///< unit, raysPerProbe of them
+    FrameHysteresis hysteresis;
+    bool linear = false;           ///< kernels::blendLinear instead of blendEncoded: for averages
+    std::uint32_t ditherSeed = 0;  ///< differs between frames
+    bool bounces = true;           ///< whether the probes hold light of an earlier update
+};
+
+/// The third axis of the pipeline: where a field's passes run and where its probes lie. Field keeps the frame's books
+/// (directions, hysteresis, convergence) and calls one of these. One thread updates at a time; queries may be
+/// concurrent with each other.
+class FieldBackend {
+public:
+    virtual ~FieldBackend() = default;
+
+    /// Blends ray data [probe * raysPerProbe + ray] into the probes. The length was checked.
+    virtual Result<UpdateTimes> update(const UpdateFrame& frame, std::span<const RayDatum> rayData) = 0;
+    /// Traces and shades the rays of all probes, then blends.
+    virtual Result<UpdateTimes> update(const UpdateFrame& frame, const Tracer& tracer, const Lighting& lighting) = 0;
+    /// E in W m^-2 at each query.
+    virtual Result<void> irradiance(const FieldDesc& desc, std::span<const FieldQuery> queries,
+                                    std::span<glm::vec3> out) const = 0;
+    /// The same for one; not a number where the backend failed.
+    virtual glm::vec3 irradiance(const FieldDesc& desc, const FieldQuery& query) const noexcept = 0;
+    /// Mean stored radiance of every probe over directions and channels.
+    virtual Result<std::vector<float>> brightness() const = 0;
+
+    virtual FieldMemory memory() const noexcept = 0;
+    virtual std::uint64_t fallbackQueries() const noexcept = 0;
+    virtual float probeBackfaceShare(int probe) const noexcept = 0;
+    virtual glm::vec3 probeIrradiance(int probe, glm::vec3 normal) const noexcept = 0;
+    virtual glm::vec2 probeDistanceMoments(int probe, glm::vec3 direction) const noexcept = 0;
+};
+
+/// A Field on a backend. The desc must be valid.
+Field makeFieldOn(const Context& context, const FieldDesc& desc, std::unique_ptr<FieldBackend> backend);
+/// The backend of a Field.
+const FieldBackend& backendOf(const Field& field) noexcept;
+
+}  // namespace probegi
