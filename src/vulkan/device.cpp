@@ -1,0 +1,55 @@
+#include <utility>
+
+#include "vulkan/device_impl.h"
+#include "vulkan/errors.h"
+
+namespace probegi::vulkan {
+
+Device::Impl::~Impl() {
+    if (pipelines) {
+        const auto saved = guarded("saving pipelines", [&] { pipelines->save(); });
+        if (!saved) warn(saved.error().message);
+        pipelines.reset();
+    }
+    if (owned) return;
+    // What an engine lent goes back alive.
+    if (*device) device.release();
+    if (*instance) instance.release();
+}
+
+void Device::Impl::finish(const Features& features, const std::filesystem::path& cacheFolder) {
+    const auto properties = physical.getProperties();
+    limits = properties.limits;
+    memoryProperties = physical.getMemoryProperties();
+    timestampBits = physical.getQueueFamilyProperties()[family].timestampValidBits;
+    rayQuery = features.canRayQuery();
+    if (rayQuery)
+        scratchAlignment = physical
+                               .getProperties2<vk::PhysicalDeviceProperties2,
+                                               vk::PhysicalDeviceAccelerationStructurePropertiesKHR>()
+                               .get<vk::PhysicalDeviceAccelerationStructurePropertiesKHR>()
+                               .minAccelerationStructureScratchOffsetAlignment;
+    std::string warning;
+    pipelines.emplace(physical, device, rayQuery, cacheFolder, warning);
+    if (!warning.empty()) warn(warning);
+}
+
+void Device::Impl::setName(vk::ObjectType type, std::uint64_t handle, const char* name) const {
+    if (debugUtilsEnabled) device.setDebugUtilsObjectNameEXT(vk::DebugUtilsObjectNameInfoEXT(type, handle, name));
+}
+
+const DeviceInfo& Device::info() const noexcept {
+    return m_impl->info;
+}
+bool Device::rayQuery() const noexcept {
+    return m_impl->rayQuery;
+}
+int Device::validationMessages() const noexcept {
+    return m_impl->validationMessages.load();
+}
+
+Result<void> Device::savePipelines() const {
+    return guarded("saving pipelines", [&] { m_impl->pipelines->save(); });
+}
+
+}  // namespace probegi::vulkan

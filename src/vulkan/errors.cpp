@@ -1,0 +1,29 @@
+#include "vulkan/errors.h"
+
+#include <fmt/format.h>
+
+namespace probegi::vulkan {
+
+Error currentError(const char* doing) noexcept {
+    try {
+        throw;
+    } catch (const Failure& failure) {
+        return {failure.code, failure.what()};
+    } catch (const vk::DeviceLostError&) {
+        return {ErrorCode::deviceLost,
+                fmt::format("the GPU was lost while {}; make a new device, or use the CPU backend", doing)};
+    } catch (const vk::OutOfDeviceMemoryError&) {
+        return {ErrorCode::outOfMemory,
+                fmt::format("the GPU has no memory left for {}; use fewer probes or a smaller scene", doing)};
+    } catch (const vk::OutOfHostMemoryError&) {
+        return {ErrorCode::outOfMemory, fmt::format("no memory left for {}", doing)};
+    } catch (const vk::SystemError& error) {
+        return {ErrorCode::unsupported, fmt::format("the Vulkan driver failed while {}: {}", doing, error.what())};
+    } catch (const std::bad_alloc&) {
+        return {ErrorCode::outOfMemory, fmt::format("no memory left for {}", doing)};
+    } catch (const std::exception& error) {
+        return {ErrorCode::unsupported, fmt::format("failed while {}: {}", doing, error.what())};
+    }
+}
+
+}  // namespace probegi::vulkan
