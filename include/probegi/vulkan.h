@@ -244,22 +244,24 @@ public:
     /// Clears the probes. Once, before any other use.
     void recordClear(VkCommandBuffer commands);
 
-    /// One update with the library's rays: trace, shade with the lighting and last frame's field, blend. Orders itself
-    /// after earlier compute and fragment reads of this volume in the queue, and before later ones. Errors:
-    /// outOfMemory (the ray data's buffer, made by the first call).
+    /// One update with the library's rays: trace, shade with the lighting and last frame's field, blend. Begins and
+    /// ends with a barrier over all commands, so that reads of the volume before and after it in the queue need none of
+    /// their own. Errors: outOfMemory (the ray data's buffer, made by the first call).
     Result<void> recordUpdate(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,
                               Profiler* profiler = nullptr);
 
-    /// One update from the caller's own rays: RayDatum (16 bytes) [probe * raysPerProbe + ray] at `offset` of a storage
-    /// buffer, along rayDirections(). The caller makes the data visible to compute shader reads. `offset`: a multiple
-    /// of the device's minStorageBufferOffsetAlignment.
-    void recordUpdate(VkCommandBuffer commands, VkBuffer rayData, VkDeviceSize offset = 0,
-                      Profiler* profiler = nullptr);
+    /// One update from the caller's own rays: RayDatum (16 bytes) [probe * raysPerProbe + ray] along rayDirections().
+    /// `rayData`: device address of a storage buffer, a multiple of 4. The caller makes the data visible to compute
+    /// shader reads. Radiance that is not a number or infinite counts as 0.
+    /// Errors: outOfMemory.
+    Result<void> recordUpdate(VkCommandBuffer commands, VkDeviceAddress rayData, Profiler* profiler = nullptr);
 
-    /// Irradiance at `count` points. `queries`: FieldQuery (36 bytes each); `irradiance`: vec3 (12 bytes each) in W
-    /// m^-2; both storage buffers at offset 0. The caller orders its own buffers before and after: compute shader.
-    void recordQuery(VkCommandBuffer commands, VkBuffer queries, VkBuffer irradiance, std::uint32_t count,
-                     Profiler* profiler = nullptr);
+    /// Irradiance at `count` points, at most 2^30. `queries`: address of FieldQuery[count] (36 bytes each);
+    /// `irradiance`: address of vec3[count] (12 bytes each), W m^-2; multiples of 4. The caller orders its own buffers
+    /// before and after: compute shader.
+    /// Errors: outOfMemory (compiling the pass, the first time).
+    Result<void> recordQuery(VkCommandBuffer commands, VkDeviceAddress queries, VkDeviceAddress irradiance,
+                             std::uint32_t count, Profiler* profiler = nullptr);
 
     /// The kQueryBindings layout bindings of `probegi/query.glsl`, for the given stages, from `firstBinding` on: the
     /// volume's constants (uniform buffer), the irradiance and visibility atlases (combined image samplers), the

@@ -21,6 +21,20 @@ KERNEL_FN ivec2 octWrapTexel(int x, int y, int size) {
     return t;
 }
 
+// The other way round: the `copy`-th border texel (0, 1 or 2) that repeats the interior texel (x, y), or (x, y) itself
+// where there are fewer. Copies 0 and 1 lie along the two pairs of edges, copy 2 in the corner.
+KERNEL_FN ivec2 octBorderTexel(int x, int y, int size, int copy) {
+    const int last = size - 1;
+    const bool onX = x == 0 || x == last;
+    const bool onY = y == 0 || y == last;
+    const int outX = x == 0 ? -1 : size;
+    const int outY = y == 0 ? -1 : size;
+    if (copy == 0 && onX) return ivec2(outX, last - y);
+    if (copy == 1 && onY) return ivec2(last - x, outY);
+    if (copy == 2 && onX && onY) return ivec2(x == 0 ? size : -1, y == 0 ? size : -1);
+    return ivec2(x, y);
+}
+
 KERNELS_END
 
 #endif

@@ -24,11 +24,11 @@ void Device::Impl::finish(const Features& features, const std::filesystem::path&
     timestampBits = physical.getQueueFamilyProperties()[family].timestampValidBits;
     rayQuery = features.canRayQuery();
     if (rayQuery)
-        scratchAlignment = physical
-                               .getProperties2<vk::PhysicalDeviceProperties2,
-                                               vk::PhysicalDeviceAccelerationStructurePropertiesKHR>()
-                               .get<vk::PhysicalDeviceAccelerationStructurePropertiesKHR>()
-                               .minAccelerationStructureScratchOffsetAlignment;
+        scratchAlignment =
+            physical
+                .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceAccelerationStructurePropertiesKHR>()
+                .get<vk::PhysicalDeviceAccelerationStructurePropertiesKHR>()
+                .minAccelerationStructureScratchOffsetAlignment;
     std::string warning;
     pipelines.emplace(physical, device, rayQuery, cacheFolder, warning);
     if (!warning.empty()) warn(warning);

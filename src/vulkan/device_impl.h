@@ -43,7 +43,7 @@ struct Device::Impl {
     std::uint32_t timestampBits = 0;
     Allocator allocator;
     mutable std::atomic<int> validationMessages{0};
-    std::optional<PipelineStore> pipelines;
+    mutable std::optional<PipelineStore> pipelines;  // compiles on demand
 };
 
 }  // namespace probegi::vulkan

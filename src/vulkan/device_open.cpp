@@ -56,8 +56,7 @@ vk::raii::Instance makeInstance(const vk::raii::Context& vulkan, bool validation
         layers.push_back(kValidationLayer);
         extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     }
-    return {vulkan,
-            vk::InstanceCreateInfo({}, &application, layers, extensions, validation ? &checks : nullptr)};
+    return {vulkan, vk::InstanceCreateInfo({}, &application, layers, extensions, validation ? &checks : nullptr)};
 }
 
 // Best first: what a person would choose.
@@ -76,7 +75,8 @@ int rank(const vk::raii::PhysicalDevice& device) {
 
 std::string listed(const std::vector<DeviceInfo>& infos) {
     std::string text;
-    for (const DeviceInfo& info : infos) text += fmt::format("{}{} '{}'", text.empty() ? "" : ", ", info.index, info.name);
+    for (const DeviceInfo& info : infos)
+        text += fmt::format("{}{} '{}'", text.empty() ? "" : ", ", info.index, info.name);
     return text;
 }
 
@@ -153,7 +153,8 @@ Result<std::vector<DeviceInfo>> listDevices() {
         const vk::raii::Context vulkan(loader);
         const vk::raii::Instance instance = makeInstance(vulkan, false, false);
         std::vector<DeviceInfo> infos;
-        for (const auto& device : instance.enumeratePhysicalDevices()) infos.push_back(describe(device, int(infos.size())));
+        for (const auto& device : instance.enumeratePhysicalDevices())
+            infos.push_back(describe(device, int(infos.size())));
         return infos;
     });
 }
@@ -167,7 +168,8 @@ Result<Device> Device::open(const Context& context, const OpenDesc& desc) {
         if (desc.validation && !hasLayer(impl->vulkan, kValidationLayer))
             throw Failure(ErrorCode::unsupported,
                           "the Khronos validation layer is not installed (vulkan-validationlayers)");
-        const bool debugUtils = desc.validation || hasInstanceExtension(impl->vulkan, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+        const bool debugUtils =
+            desc.validation || hasInstanceExtension(impl->vulkan, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
         impl->instance = makeInstance(impl->vulkan, desc.validation, debugUtils);
         impl->debugUtilsEnabled = debugUtils;
         if (desc.validation) impl->messenger.emplace(impl->instance, messengerInfo(*impl));

@@ -12,6 +12,11 @@ Error currentError(const char* doing) noexcept {
     } catch (const vk::DeviceLostError&) {
         return {ErrorCode::deviceLost,
                 fmt::format("the GPU was lost while {}; make a new device, or use the CPU backend", doing)};
+    } catch (const vk::IncompatibleDriverError&) {
+        return {
+            ErrorCode::unsupported,
+            "no Vulkan driver found a device; install a driver (mesa-vulkan-drivers has a software one), or use the "
+            "CPU backend"};
     } catch (const vk::OutOfDeviceMemoryError&) {
         return {ErrorCode::outOfMemory,
                 fmt::format("the GPU has no memory left for {}; use fewer probes or a smaller scene", doing)};

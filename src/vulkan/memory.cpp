@@ -86,9 +86,9 @@ Image::Image(const Device::Impl& device, const char* name, vk::Format format, vk
     m_memory = Memory(device, needs, MemoryUse::device, false);
     m_bytes = needs.size;
     m_image.bindMemory(m_memory.allocation().memory, m_memory.allocation().offset);
-    m_view = vk::raii::ImageView(
-        device.device, vk::ImageViewCreateInfo({}, *m_image, vk::ImageViewType::e2DArray, format, {},
-                                               {vk::ImageAspectFlagBits::eColor, 0, 1, 0, layers}));
+    m_view = vk::raii::ImageView(device.device,
+                                 vk::ImageViewCreateInfo({}, *m_image, vk::ImageViewType::e2DArray, format, {},
+                                                         {vk::ImageAspectFlagBits::eColor, 0, 1, 0, layers}));
     device.setName(vk::ObjectType::eImage, std::uint64_t(VkImage(*m_image)), name);
 }
 

@@ -59,9 +59,9 @@ vk::raii::DescriptorSetLayout makeVolumeLayout(const vk::raii::Device& device) {
     using Type = vk::DescriptorType;
     const auto stages = vk::ShaderStageFlagBits::eCompute;
     const vk::DescriptorSetLayoutBinding bindings[] = {
-        {0, Type::eUniformBuffer, 1, stages}, {1, Type::eCombinedImageSampler, 1, stages},
+        {0, Type::eUniformBuffer, 1, stages},        {1, Type::eCombinedImageSampler, 1, stages},
         {2, Type::eCombinedImageSampler, 1, stages}, {3, Type::eStorageBuffer, 1, stages},
-        {4, Type::eStorageImage, 1, stages}, {5, Type::eStorageImage, 1, stages}};
+        {4, Type::eStorageImage, 1, stages},         {5, Type::eStorageImage, 1, stages}};
     return {device, vk::DescriptorSetLayoutCreateInfo({}, bindings)};
 }
 
@@ -80,8 +80,8 @@ vk::raii::PipelineLayout makePipelineLayout(const vk::raii::Device& device, cons
 
 vk::raii::Sampler makeSampler(const vk::raii::Device& device) {
     const auto edge = vk::SamplerAddressMode::eClampToEdge;
-    return {device, vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear,
-                                          vk::SamplerMipmapMode::eNearest, edge, edge, edge)};
+    return {device, vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eNearest,
+                                          edge, edge, edge)};
 }
 
 }  // namespace

@@ -160,13 +160,9 @@ std::optional<std::uint32_t> computeFamily(const vk::raii::PhysicalDevice& devic
 
 DeviceInfo describe(const vk::raii::PhysicalDevice& device, int index) {
     const auto properties = device.getProperties();
-    DeviceInfo info{index,
-                    properties.deviceName.data(),
-                    {},
-                    typeText(properties.deviceType),
-                    versionText(properties.apiVersion),
-                    false,
-                    missingBesidesFeatures(device)};
+    DeviceInfo info{
+        index, properties.deviceName.data(),  {}, typeText(properties.deviceType), versionText(properties.apiVersion),
+        false, missingBesidesFeatures(device)};
     if (properties.apiVersion >= VK_API_VERSION_1_2) {
         const auto driver = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
                                 .get<vk::PhysicalDeviceDriverProperties>();

@@ -9,5 +9,10 @@ void evaluate(INOUT(Lane) lane) {
     const ivec2 inside = octWrapTexel(x, y, size);
     giveBits(lane, uint(inside.x));
     giveBits(lane, uint(inside.y));
+    for (int copy = 0; copy < 3; ++copy) {
+        const ivec2 border = octBorderTexel(inside.x, inside.y, size, copy);
+        giveBits(lane, uint(border.x));
+        giveBits(lane, uint(border.y));
+    }
     giveVec3(lane, octTexelDirection(inside.x, inside.y, size), 1e-6f);
 }

@@ -1,0 +1,115 @@
+// Push constants of the compute passes: one struct for C++ and GLSL, scalar layout, at most 128 bytes. Buffers are
+// given by their device addresses, low word first.
+#ifndef PROBEGI_KERNELS_GPU_PASSES_H
+#define PROBEGI_KERNELS_GPU_PASSES_H
+
+#include "kernels/language.h"
+
+KERNELS_BEGIN
+
+// One entry of the sparse visibility weights: what ray counts for a texel, and how much.
+struct GpuRayWeight {
+    uint ray;
+    float weight;
+};
+
+// Weights of a frame's rays for the texels of a probe (blend_weights.comp).
+struct WeightsPush {
+    uvec2 directions;         // vec3[rays]
+    uvec2 irradianceWeights;  // float[ray][texel]
+    uvec2 visibilityCounts;   // uint[texel]
+    uvec2 visibilityWeights;  // GpuRayWeight[entry][texel], in the order of rays
+    int rays;
+    int irradianceTexels;  // of a map, all
+    int visibilityTexels;
+    int irradianceSize;  // side of a map
+    int visibilitySize;
+    float visibilityExponent;
+};
+
+// Both blends (blend_irradiance.comp, blend_visibility.comp).
+struct BlendPush {
+    uvec2 rayData;            // RayDatum[probe][ray]
+    uvec2 irradianceWeights;  // as WeightsPush
+    uvec2 visibilityCounts;
+    uvec2 visibilityWeights;
+    int rays;
+    int probes;
+    float maxDistance;           // metres
+    float irradianceHysteresis;  // alpha of eq. 1
+    float visibilityHysteresis;
+    float significantChange;  // Listing 3
+    float newDistribution;    // Listing 3
+    uint ditherSeed;
+    int linear;  // 1: blendLinear
+};
+
+// Probe rays (trace_probes.comp) and their shading (shade_probes.comp).
+struct TracePush {
+    uvec2 directions;  // vec3[rays]
+    uvec2 hits;        // GpuHit[probe][ray]
+    uvec2 rayData;     // RayDatum[probe][ray]
+    uvec2 lighting;    // GpuLighting
+    int rays;
+    int probes;
+    int bounces;  // 1: the probes hold light of an earlier update
+};
+
+// Irradiance at points (query.comp).
+struct QueryPush {
+    uvec2 queries;     // FieldQuery[count]
+    uvec2 irradiance;  // vec3[count]
+    uint count;
+};
+
+// Closest hits of given rays, occlusion, surfaces (trace_rays.comp, occlusion.comp, surfaces.comp).
+struct RaysPush {
+    uvec2 rays;     // Ray[count]
+    uvec2 hits;     // GpuHit[count]
+    uvec2 results;  // occlusion: uint[count]; surfaces: GpuSurface[count]
+    uint count;
+};
+
+// A picture, a band of rows at a time (primary.comp, direct_light.comp, indirect_light.comp, resolve.comp).
+struct PicturePush {
+    uvec2 samples;   // GpuSample[]
+    uvec2 layers;    // vec3[layer][pixel of the band]
+    uvec2 lighting;  // GpuLighting
+    vec3 cameraOrigin;
+    int width;  // pixels
+    vec3 corner;
+    int firstRow;
+    vec3 pixelRight;
+    int rows;  // of the band
+    vec3 pixelDown;
+    int samplesPerAxis;
+    int flags;  // kPictureDiffuseOnly, kPictureField
+};
+KERNEL_CONST int kPictureDiffuseOnly = 1;
+KERNEL_CONST int kPictureField = 2;
+
+// Linear values to 8-bit sRGB (tone_map.comp).
+struct ToneMapPush {
+    uvec2 pixels;   // vec3[count]
+    uvec2 display;  // uint[count], RGBA8, red in the lowest byte
+    uint count;
+    float exposure;
+    int filmic;
+};
+
+// Low and high word of a device address.
+KERNEL_FN uvec2 gpuAddress(uint low, uint high) {
+    return uvec2(low, high);
+}
+
+KERNELS_END
+
+#ifdef __cplusplus
+namespace probegi::kernels {
+static_assert(sizeof(WeightsPush) == 56 && sizeof(BlendPush) == 68 && sizeof(TracePush) == 44);
+static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 28 && sizeof(PicturePush) == 92);
+static_assert(sizeof(ToneMapPush) == 28);
+}  // namespace probegi::kernels
+#endif
+
+#endif

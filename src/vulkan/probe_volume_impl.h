@@ -1,0 +1,69 @@
+#pragma once
+
+#include "field/frame_books.h"
+#include "field/layout.h"
+#include "kernels/gpu_volume.h"
+#include "vulkan/recorder.h"
+
+namespace probegi::vulkan {
+
+/// Probes in GPU memory and the passes over them. What an update needs to know of the frame comes from outside: from
+/// ProbeVolume's books for an engine, from Field's for a FieldBackend. Throws Failure and what Vulkan-Hpp throws.
+class VolumePasses {
+public:
+    /// The desc must be valid. Failure: unsupported (too many probes along an axis).
+    VolumePasses(const Device& device, const FieldDesc& desc);
+
+    void recordClear(const Recorder& recorder);
+    /// Traces and shades the rays of all probes into rayData(), then blends it.
+    void recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
+                      const GpuLighting& lighting, Profiler* profiler);
+    /// Blends the ray data at an address.
+    void recordUpdate(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData, Profiler* profiler);
+    void recordQuery(const Recorder& recorder, const FieldDesc& desc, VkDeviceAddress queries,
+                     VkDeviceAddress irradiance, std::uint32_t count, Profiler* profiler);
+    /// Brings the constants up to date with the desc's guard, for whoever reads set() in passes of its own.
+    void recordGuard(const Recorder& recorder, const FieldDesc& desc);
+
+    vk::DescriptorSet set() const noexcept { return *m_sets.front(); }
+    void writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBinding) const;
+    FieldMemory memory() const noexcept;
+
+    const FieldLayout& layout() const noexcept { return m_layout; }
+    const Image& irradiance() const noexcept { return m_irradiance; }
+    const Image& visibility() const noexcept { return m_visibility; }
+    const Buffer& states() const noexcept { return m_states; }
+    const Device& device() const noexcept { return m_device; }
+
+private:
+    kernels::GpuVolume constants(LeakGuard guard) const;
+    void writeSet();
+    void makeRayBuffers();
+    void recordWeights(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler);
+    void recordTrace(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
+                     const GpuLighting& lighting, Profiler* profiler);
+    void recordBlend(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData, Profiler* profiler);
+
+    Device m_device;
+    FieldDesc m_desc;
+    FieldLayout m_layout;
+    Image m_irradiance, m_visibility;
+    Buffer m_constants;          // GpuVolume
+    Buffer m_states;             // the count of fallbacks, then each probe's share of backfaces
+    Buffer m_directions;         // vec3 a ray
+    Buffer m_irradianceWeights;  // float[ray][texel]
+    Buffer m_visibilityCounts;   // uint[texel]
+    Buffer m_visibilityWeights;  // GpuRayWeight[entry][texel]
+    Buffer m_hits, m_rayData;    // made by the first traced update
+    vk::raii::DescriptorPool m_pool{nullptr};
+    vk::raii::DescriptorSets m_sets{nullptr};
+    LeakGuard m_recordedGuard;
+};
+
+struct ProbeVolume::Impl {
+    Impl(const Device& device, const FieldDesc& desc) : passes(device, desc), books(desc) {}
+    VolumePasses passes;
+    FrameBooks books;
+};
+
+}  // namespace probegi::vulkan

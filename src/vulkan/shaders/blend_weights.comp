@@ -1,0 +1,63 @@
+// Weights of the frame's rays for all texels of a probe, the same for all probes (DDGI paper, eq. 1 and its power-cosine
+// form). One thread a texel. Irradiance weights are a dense matrix. Visibility weights fall so fast that nine rays in
+// ten count for less than a part in 10^8: they are lists.
+#include "common.glsl"
+
+#include "kernels/gpu_passes.h"
+#include "kernels/octahedral_texel.h"
+#include "kernels/probe_blend.h"
+
+layout(local_size_x = 32) in;
+layout(push_constant, scalar) uniform Push {
+    WeightsPush push;
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RayWeights {
+    GpuRayWeight at[];
+};
+
+// Weights below this share of the largest are left out.
+const float kNegligible = 1e-8;
+
+void irradianceTexel(int texel) {
+    const vec3 n = octTexelDirection(texel % push.irradianceSize, texel / push.irradianceSize, push.irradianceSize);
+    Vec3s directions = Vec3s(push.directions);
+    float sum = 0.0;
+    for (int ray = 0; ray < push.rays; ++ray) sum += irradianceWeight(n, directions.at[ray]);
+    const float scale = normalisingFactor(sum);
+    for (int ray = 0; ray < push.rays; ++ray)
+        Floats(push.irradianceWeights).at[ray * push.irradianceTexels + texel] =
+            irradianceWeight(n, directions.at[ray]) * scale;
+}
+
+void visibilityTexel(int texel) {
+    const vec3 n = octTexelDirection(texel % push.visibilitySize, texel / push.visibilitySize, push.visibilitySize);
+    Vec3s directions = Vec3s(push.directions);
+    float nearest = 0.0;
+    for (int ray = 0; ray < push.rays; ++ray) nearest = max(nearest, dot(n, directions.at[ray]));
+    // The cosine whose power is kNegligible of the nearest ray's: most rays need no power.
+    const float leastCosine = nearest * pow(kNegligible, 1.0 / push.visibilityExponent);
+    float sum = 0.0;
+    for (int ray = 0; ray < push.rays; ++ray)
+        if (dot(n, directions.at[ray]) > leastCosine)
+            sum += visibilityWeight(n, directions.at[ray], push.visibilityExponent);
+    // A texel that no ray comes near (few rays, high exponent) has no entries.
+    uint count = 0;
+    if (sum > 1e-20) {
+        for (int ray = 0; ray < push.rays; ++ray) {
+            if (!(dot(n, directions.at[ray]) > leastCosine)) continue;
+            const float weight = visibilityWeight(n, directions.at[ray], push.visibilityExponent) / sum;
+            RayWeights(push.visibilityWeights).at[count * push.visibilityTexels + texel] =
+                GpuRayWeight(uint(ray), weight);
+            ++count;
+        }
+    }
+    Uints(push.visibilityCounts).at[texel] = count;
+}
+
+void main() {
+    const int texel = int(globalIndex());
+    if (texel < push.irradianceTexels)
+        irradianceTexel(texel);
+    else if (texel < push.irradianceTexels + push.visibilityTexels)
+        visibilityTexel(texel - push.irradianceTexels);
+}

@@ -1,0 +1,25 @@
+// What every pass includes first: extensions, typed views of buffer addresses, the number of a thread.
+#ifndef PROBEGI_COMMON_GLSL
+#define PROBEGI_COMMON_GLSL
+
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Floats {
+    float at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Uints {
+    uint at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Vec3s {
+    vec3 at[];
+};
+
+// Number of this thread where Recorder::dispatchOver() spread the groups over two axes.
+uint globalIndex() {
+    return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+}
+
+#endif

@@ -1,0 +1,269 @@
+#include <fmt/format.h>
+
+#include "kernels/gpu_passes.h"
+#include "vulkan/errors.h"
+#include "vulkan/gpu_lighting_impl.h"
+#include "vulkan/gpu_scene_impl.h"
+#include "vulkan/probe_volume_impl.h"
+
+namespace probegi::vulkan {
+
+namespace {
+
+// Of blend_irradiance.comp and blend_visibility.comp.
+constexpr std::uint32_t kIrradianceProbes = 16, kIrradianceTexels = 64;
+constexpr std::uint32_t kVisibilityProbes = 4, kVisibilityTexels = 64;
+constexpr std::size_t kHitBytes = 24;  // Hit of shaders/types.glsl
+
+std::uint32_t groups(std::size_t count, std::uint32_t size) {
+    return std::uint32_t((count + size - 1) / size);
+}
+
+// An atlas for maps of `texels` a side: a layer for each z, tiles with borders.
+Image makeAtlas(const Device& device, const char* name, vk::Format format, glm::ivec3 counts, int texels) {
+    const auto& limits = device.impl().limits;
+    const std::int64_t tile = texels + 2;
+    if (counts.x * tile > limits.maxImageDimension2D || counts.y * tile > limits.maxImageDimension2D)
+        throw Failure(ErrorCode::unsupported,
+                      fmt::format("{}x{} probes along x and y do not fit into this device's images; with maps of {} "
+                                  "texels each axis may have {}",
+                                  counts.x, counts.y, texels, limits.maxImageDimension2D / tile));
+    if (std::uint32_t(counts.z) > limits.maxImageArrayLayers)
+        throw Failure(ErrorCode::unsupported, fmt::format("{} probes along z do not fit into this device's images; it "
+                                                          "has {} layers",
+                                                          counts.z, limits.maxImageArrayLayers));
+    return {device.impl(),
+            name,
+            format,
+            {std::uint32_t(counts.x * tile), std::uint32_t(counts.y * tile)},
+            std::uint32_t(counts.z)};
+}
+
+}  // namespace
+
+VolumePasses::VolumePasses(const Device& device, const FieldDesc& desc)
+    : m_device(device),
+      m_desc(desc),
+      m_layout(desc),
+      m_irradiance(makeAtlas(device, "irradiance", kIrradianceFormat, desc.grid.counts, desc.irradianceTexels)),
+      m_visibility(makeAtlas(device, "visibility", kVisibilityFormat, desc.grid.counts, desc.visibilityTexels)),
+      m_constants(device.impl(), "volume constants", sizeof(kernels::GpuVolume),
+                  vk::BufferUsageFlagBits::eUniformBuffer | vk::BufferUsageFlagBits::eTransferDst),
+      m_states(device.impl(), "probe states", sizeof(std::uint32_t) + m_layout.probes * sizeof(float),
+               vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst |
+                   vk::BufferUsageFlagBits::eTransferSrc),
+      m_directions(device.impl(), "ray directions", m_layout.rays * sizeof(glm::vec3), kAddressed),
+      m_irradianceWeights(device.impl(), "irradiance weights",
+                          m_layout.rays * m_layout.irradianceTexels * sizeof(float), kAddressed),
+      m_visibilityCounts(device.impl(), "visibility weight counts", m_layout.visibilityTexels * sizeof(std::uint32_t),
+                         kAddressed),
+      m_visibilityWeights(device.impl(), "visibility weights",
+                          m_layout.rays * m_layout.visibilityTexels * sizeof(kernels::GpuRayWeight), kAddressed),
+      m_recordedGuard(desc.guard) {
+    writeSet();
+}
+
+kernels::GpuVolume VolumePasses::constants(LeakGuard guard) const {
+    const GridDesc& grid = m_desc.grid;
+    const auto texelSize = [](const Image& image) {
+        return glm::vec2(1.0f / float(image.size().width), 1.0f / float(image.size().height));
+    };
+    return {.origin = grid.origin,
+            .minSpacing = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z}),
+            .spacing = grid.spacing,
+            .selfShadowBias = m_desc.selfShadowBias,
+            .inverseSpacing = 1.0f / grid.spacing,
+            .inverseMaxDistance = 1.0f / m_layout.maxDistance,
+            .counts = grid.counts,
+            .guard = guard == LeakGuard::none ? kernels::kGuardNone : kernels::kGuardMoments,
+            .irradianceTexelSize = texelSize(m_irradiance),
+            .visibilityTexelSize = texelSize(m_visibility),
+            .irradianceTexels = m_desc.irradianceTexels,
+            .visibilityTexels = m_desc.visibilityTexels};
+}
+
+void VolumePasses::writeSet() {
+    const Device::Impl& device = m_device.impl();
+    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eUniformBuffer, 1},
+                                            {vk::DescriptorType::eCombinedImageSampler, 2},
+                                            {vk::DescriptorType::eStorageBuffer, 1},
+                                            {vk::DescriptorType::eStorageImage, 2}};
+    m_pool = vk::raii::DescriptorPool(
+        device.device, vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes));
+    m_sets = vk::raii::DescriptorSets(device.device,
+                                      vk::DescriptorSetAllocateInfo(*m_pool, *device.pipelines->layout().volume));
+    writeQueryBindings(set(), 0);
+    const vk::DescriptorImageInfo images[] = {{{}, m_irradiance.view(), vk::ImageLayout::eGeneral},
+                                              {{}, m_visibility.view(), vk::ImageLayout::eGeneral}};
+    device.device.updateDescriptorSets(
+        vk::WriteDescriptorSet(set(), 4, 0, 1, vk::DescriptorType::eStorageImage, &images[0]), {});
+    device.device.updateDescriptorSets(
+        vk::WriteDescriptorSet(set(), 5, 0, 1, vk::DescriptorType::eStorageImage, &images[1]), {});
+}
+
+void VolumePasses::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBinding) const {
+    const Device::Impl& device = m_device.impl();
+    const vk::Sampler sampler = *device.pipelines->layout().sampler;
+    const vk::DescriptorBufferInfo constants(m_constants.handle(), 0, VK_WHOLE_SIZE);
+    const vk::DescriptorBufferInfo states(m_states.handle(), 0, VK_WHOLE_SIZE);
+    const vk::DescriptorImageInfo images[] = {{sampler, m_irradiance.view(), vk::ImageLayout::eGeneral},
+                                              {sampler, m_visibility.view(), vk::ImageLayout::eGeneral}};
+    using Type = vk::DescriptorType;
+    const vk::WriteDescriptorSet writes[] = {{set, firstBinding, 0, 1, Type::eUniformBuffer, nullptr, &constants},
+                                             {set, firstBinding + 1, 0, 1, Type::eCombinedImageSampler, &images[0]},
+                                             {set, firstBinding + 2, 0, 1, Type::eCombinedImageSampler, &images[1]},
+                                             {set, firstBinding + 3, 0, 1, Type::eStorageBuffer, nullptr, &states}};
+    device.device.updateDescriptorSets(writes, {});
+}
+
+FieldMemory VolumePasses::memory() const noexcept {
+    return {m_irradiance.bytes(), m_visibility.bytes(), m_states.bytes() + m_constants.bytes() + m_directions.bytes(),
+            m_irradianceWeights.bytes() + m_visibilityCounts.bytes() + m_visibilityWeights.bytes() + m_hits.bytes() +
+                m_rayData.bytes()};
+}
+
+void VolumePasses::makeRayBuffers() {
+    if (m_rayData) return;
+    const std::size_t rays = m_layout.probes * m_layout.rays;
+    Buffer hits(m_device.impl(), "probe ray hits", rays * kHitBytes, kAddressed);
+    m_rayData = Buffer(m_device.impl(), "probe ray data", rays * sizeof(RayDatum), kAddressed);
+    m_hits = std::move(hits);
+}
+
+void VolumePasses::recordClear(const Recorder& recorder) {
+    const auto all = vk::ImageSubresourceRange(vk::ImageAspectFlagBits::eColor, 0, 1, 0, VK_REMAINING_ARRAY_LAYERS);
+    std::vector<vk::ImageMemoryBarrier2> toGeneral;
+    for (const Image* image : {&m_irradiance, &m_visibility})
+        toGeneral.push_back({vk::PipelineStageFlagBits2::eAllCommands,
+                             {},
+                             vk::PipelineStageFlagBits2::eTransfer,
+                             vk::AccessFlagBits2::eTransferWrite,
+                             vk::ImageLayout::eUndefined,
+                             vk::ImageLayout::eGeneral,
+                             VK_QUEUE_FAMILY_IGNORED,
+                             VK_QUEUE_FAMILY_IGNORED,
+                             image->handle(),
+                             all});
+    recorder.commands().pipelineBarrier2(vk::DependencyInfo().setImageMemoryBarriers(toGeneral), recorder.dispatcher());
+    const vk::ClearColorValue black(std::array<float, 4>{});
+    for (const Image* image : {&m_irradiance, &m_visibility})
+        recorder.commands().clearColorImage(image->handle(), vk::ImageLayout::eGeneral, black, all,
+                                            recorder.dispatcher());
+    recorder.fill(m_states, 0);
+    recorder.write(m_constants, bytesOf(constants(m_recordedGuard)));
+    recorder.orderAll();
+}
+
+void VolumePasses::recordGuard(const Recorder& recorder, const FieldDesc& desc) {
+    if (desc.guard == m_recordedGuard) return;
+    m_recordedGuard = desc.guard;
+    recorder.orderAll();
+    recorder.write(m_constants, bytesOf(constants(desc.guard)));
+    recorder.orderAll();
+}
+
+void VolumePasses::recordWeights(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler) {
+    const PassScope scope(recorder, m_device.impl(), profiler, "weights");
+    recorder.push(kernels::WeightsPush{.directions = addressWords(m_directions.address()),
+                                       .irradianceWeights = addressWords(m_irradianceWeights.address()),
+                                       .visibilityCounts = addressWords(m_visibilityCounts.address()),
+                                       .visibilityWeights = addressWords(m_visibilityWeights.address()),
+                                       .rays = int(m_layout.rays),
+                                       .irradianceTexels = int(m_layout.irradianceTexels),
+                                       .visibilityTexels = int(m_layout.visibilityTexels),
+                                       .irradianceSize = frame.desc.irradianceTexels,
+                                       .visibilitySize = frame.desc.visibilityTexels,
+                                       .visibilityExponent = frame.desc.visibilityExponent});
+    recorder.dispatchOver("blend_weights", m_layout.irradianceTexels + m_layout.visibilityTexels, 32);
+}
+
+void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
+                               const GpuLighting& lighting, Profiler* profiler) {
+    const std::uint64_t rays = std::uint64_t(m_layout.probes) * m_layout.rays;
+    const std::string tracer = scene.impl().shaderSuffix();
+    recorder.bindScene(scene.impl().set());
+    recorder.push(kernels::TracePush{.directions = addressWords(m_directions.address()),
+                                     .hits = addressWords(m_hits.address()),
+                                     .rayData = addressWords(m_rayData.address()),
+                                     .lighting = addressWords(lighting.impl().address()),
+                                     .rays = int(m_layout.rays),
+                                     .probes = int(m_layout.probes),
+                                     .bounces = frame.bounces ? 1 : 0});
+    {
+        const PassScope scope(recorder, m_device.impl(), profiler, "trace");
+        recorder.dispatchOver("trace_probes" + tracer, rays, 64);
+    }
+    recorder.computeToCompute();
+    {
+        const PassScope scope(recorder, m_device.impl(), profiler, "shade");
+        recorder.dispatchOver("shade_probes" + tracer, rays, 64);
+    }
+    recorder.computeToCompute();
+}
+
+void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData,
+                               Profiler* profiler) {
+    recorder.push(kernels::BlendPush{.rayData = addressWords(rayData),
+                                     .irradianceWeights = addressWords(m_irradianceWeights.address()),
+                                     .visibilityCounts = addressWords(m_visibilityCounts.address()),
+                                     .visibilityWeights = addressWords(m_visibilityWeights.address()),
+                                     .rays = int(m_layout.rays),
+                                     .probes = int(m_layout.probes),
+                                     .maxDistance = m_layout.maxDistance,
+                                     .irradianceHysteresis = frame.hysteresis.irradiance,
+                                     .visibilityHysteresis = frame.hysteresis.visibility,
+                                     .significantChange = frame.desc.significantChange,
+                                     .newDistribution = frame.desc.newDistribution,
+                                     .ditherSeed = frame.ditherSeed,
+                                     .linear = frame.linear ? 1 : 0});
+    {
+        const PassScope scope(recorder, m_device.impl(), profiler, "blend irradiance");
+        const std::uint32_t excluded[] = {frame.desc.backfaceRule == BackfaceRule::excluded ? 1u : 0u};
+        recorder.dispatch("blend_irradiance", groups(m_layout.probes, kIrradianceProbes),
+                          groups(m_layout.irradianceTexels, kIrradianceTexels), 1, excluded);
+    }
+    {
+        const PassScope scope(recorder, m_device.impl(), profiler, "blend visibility");
+        recorder.dispatch("blend_visibility", groups(m_layout.probes, kVisibilityProbes),
+                          groups(m_layout.visibilityTexels, kVisibilityTexels));
+    }
+}
+
+void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
+                                const GpuLighting& lighting, Profiler* profiler) {
+    makeRayBuffers();
+    recordGuard(recorder, frame.desc);
+    recorder.orderAll();
+    recorder.write(m_directions, std::as_bytes(frame.directions));
+    recorder.transferToCompute();
+    recorder.bindVolume(set());
+    recordWeights(recorder, frame, profiler);
+    recordTrace(recorder, frame, scene, lighting, profiler);
+    recordBlend(recorder, frame, m_rayData.address(), profiler);
+    recorder.orderAll();
+}
+
+void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData,
+                                Profiler* profiler) {
+    recordGuard(recorder, frame.desc);
+    recorder.orderAll();
+    recorder.write(m_directions, std::as_bytes(frame.directions));
+    recorder.transferToCompute();
+    recorder.bindVolume(set());
+    recordWeights(recorder, frame, profiler);
+    recorder.computeToCompute();
+    recordBlend(recorder, frame, rayData, profiler);
+    recorder.orderAll();
+}
+
+void VolumePasses::recordQuery(const Recorder& recorder, const FieldDesc& desc, VkDeviceAddress queries,
+                               VkDeviceAddress irradiance, std::uint32_t count, Profiler* profiler) {
+    recordGuard(recorder, desc);
+    const PassScope scope(recorder, m_device.impl(), profiler, "query");
+    recorder.bindVolume(set());
+    recorder.push(
+        kernels::QueryPush{.queries = addressWords(queries), .irradiance = addressWords(irradiance), .count = count});
+    recorder.dispatchOver("query", count, 64);
+}
+
+}  // namespace probegi::vulkan
