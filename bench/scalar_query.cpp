@@ -6,6 +6,7 @@
 
 #include "kernels/irradiance_decoding.h"
 #include "kernels/octahedral.h"
+#include "kernels/probe_cage.h"
 #include "kernels/probe_query.h"
 #include "kernels/storage.h"
 
@@ -54,12 +55,13 @@ glm::vec3 blendSpaceIrradiance(const FieldView& view, int probe, const Footprint
 
 glm::vec3 queryOne(const FieldView& view, FieldQuery query) {
     const GridDesc& grid = view.desc->grid;
-    query.position = glm::clamp(query.position, grid.origin, grid.origin + grid.spacing * glm::vec3(grid.counts - 1));
+    query.position = kernels::clampToGrid(query.position, grid.origin, grid.spacing, grid.counts);
     const glm::vec3 bias =
         kernels::selfShadowBias(query.normal, query.toViewer, view.minSpacing, view.desc->selfShadowBias);
-    const glm::vec3 local = (query.position + kernels::kCageBias * bias - grid.origin) * view.inverseSpacing;
-    const glm::vec3 base = glm::clamp(glm::floor(local), glm::vec3(0.0f), glm::vec3(grid.counts - 2));
-    const glm::vec3 alpha = glm::clamp(local - base, 0.0f, 1.0f);
+    const glm::vec3 local =
+        kernels::gridCoordinates(query.position + kernels::kCageBias * bias, grid.origin, view.inverseSpacing);
+    const glm::vec3 base = kernels::cageBase(local, grid.counts);
+    const glm::vec3 alpha = kernels::cageAlpha(local, base);
     const Footprint footprint = footprintOf(*view.irradianceTaps, view.desc->irradianceTexels, query.normal);
     glm::vec3 sum(0.0f);
     float weightSum = 0;

@@ -36,9 +36,9 @@ std::vector<FieldQuery> wallPoints(glm::vec3 lower, glm::vec3 upper) {
     return points;
 }
 
-double meanIrradiance(const Field& field, const std::vector<FieldQuery>& points) {
+Result<double> meanIrradiance(const Field& field, const std::vector<FieldQuery>& points) {
     std::vector<glm::vec3> irradiance(points.size());
-    field.irradiance(points, irradiance);
+    if (const auto asked = field.irradiance(points, irradiance); !asked) return tl::unexpected(asked.error());
     double sum = 0;
     for (const glm::vec3& e : irradiance) sum += (double(e.x) + e.y + e.z) / 3;
     return sum / double(points.size());
@@ -61,8 +61,11 @@ Result<double> leakShare(const Context& context, const Tracer& tracer, const Lig
     const float wall = 0.5f * wallThickness;
     const glm::vec3 sealed(wall, 0, -0.5f * kRoom.z);
     const glm::vec3 lit(-wall - kRoom.x, 0, -0.5f * kRoom.z);
-    return meanIrradiance(*field, wallPoints(sealed, sealed + kRoom)) /
-           meanIrradiance(*field, wallPoints(lit, lit + kRoom));
+    const auto dark = meanIrradiance(*field, wallPoints(sealed, sealed + kRoom));
+    if (!dark) return dark;
+    const auto bright = meanIrradiance(*field, wallPoints(lit, lit + kRoom));
+    if (!bright) return bright;
+    return *dark / *bright;
 }
 
 }  // namespace

@@ -146,7 +146,8 @@ Result<BenchRound> Bench::round() {
 
     const std::uint64_t fallbacks = m_field->fallbackQueries();
     auto start = Clock::now();
-    m_field->irradiance(m_points, m_irradiance);
+    const auto asked = m_field->irradiance(m_points, m_irradiance);
+    if (!asked) return tl::unexpected(asked.error());
     round.query = millisecondsSince(start);
     round.fallbacks = double(m_field->fallbackQueries() - fallbacks);
 

@@ -14,9 +14,9 @@ constexpr float kPi = 3.14159265f;
 constexpr int kFramesPerSwitch = 120;
 constexpr PlacedLight kLamp{.type = LightType::point, .position = {3, 2, 2}, .intensity = {20, 20, 20}};
 
-float meanOnWalls(const Field& field, std::span<const FieldQuery> points) {
+Result<float> meanOnWalls(const Field& field, std::span<const FieldQuery> points) {
     std::vector<glm::vec3> answers(points.size());
-    field.irradiance(points, answers);
+    if (const auto asked = field.irradiance(points, answers); !asked) return tl::unexpected(asked.error());
     float sum = 0;
     for (const glm::vec3& e : answers) sum += e.y;
     return sum / float(points.size());
@@ -30,7 +30,9 @@ Result<float> playFrames(Field& field, const Tracer& tracer, const Lighting& lig
         const auto times = field.update(tracer, lighting);
         if (!times) return tl::unexpected(times.error());
         if (frame % 20 != 0) continue;
-        std::printf("  frame %3d: %6.3f W/m^2, update %.2f ms\n", frame, meanOnWalls(field, points), times->total);
+        const auto mean = meanOnWalls(field, points);
+        if (!mean) return mean;
+        std::printf("  frame %3d: %6.3f W/m^2, update %.2f ms\n", frame, *mean, times->total);
     }
     return meanOnWalls(field, points);
 }

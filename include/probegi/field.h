@@ -128,7 +128,7 @@ public:
 
     /// The same for many points, on all threads. The spans must be equally long (asserted).
     /// A field on the CPU never fails. Errors: deviceLost, outOfMemory.
-    Result<void> irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> out) const;
+    [[nodiscard]] Result<void> irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> out) const;
 
     /// Queries so far, those of updates included, whose eight probes all stood in walls or did not see the point, so
     /// that wider neighbours answered: above a few per cent the grid is too coarse for the scene.

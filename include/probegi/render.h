@@ -42,7 +42,7 @@ struct RenderedPicture {
 };
 
 /// Ray-cast picture with shadows; `field` adds indirect light (null: none).
-/// Errors: invalidArgument (size), cancelled.
+/// Errors: invalidArgument (size), cancelled, outOfMemory, and those of the field's irradiance().
 Result<RenderedPicture> renderPicture(const Context& context, const Tracer& tracer, const Lighting& lighting,
                                       const Field* field, const PictureDesc& desc);
 

@@ -7,8 +7,7 @@
 #include "core/parallel.h"
 #include "cpu/matrix_product.h"
 #include "kernels/octahedral_texel.h"
-#include "kernels/probe_blend.h"
-#include "kernels/storage.h"
+#include "kernels/probe_texel.h"
 
 namespace probegi {
 
@@ -28,8 +27,7 @@ void fillWeights(const Context& context, int size, std::span<const glm::vec3> di
             float sum = 0;
             for (std::size_t ray = 0; ray < directions.size(); ++ray)
                 sum += out[ray * texels + texel] = weight(n, directions[ray]);
-            // A texel that no ray comes near (few rays, high exponent) keeps weight 0 throughout; see storeVisibility.
-            const float scale = sum > 1e-20f ? 1.0f / sum : 0.0f;
+            const float scale = kernels::normalisingFactor(sum);
             for (std::size_t ray = 0; ray < directions.size(); ++ray) out[ray * texels + texel] *= scale;
         }
     });
@@ -44,14 +42,6 @@ struct BlockInput {
     bool weighted = false;
 };
 
-// RayDatum::distance of a ray that hit nothing is at least this.
-constexpr float kMissDistance = 1e27f;
-
-// Not a number, infinite or negative radiance never enters an atlas.
-float safeRadiance(float x) {
-    return x > 0.0f && x < 1e30f ? x : 0.0f;
-}
-
 void gather(const FieldDesc& desc, const FieldLayout& layout, std::span<const RayDatum> data, std::size_t probes,
             BlockInput& in) {
     const std::size_t rays = layout.rays, rows = probes;
@@ -65,17 +55,18 @@ void gather(const FieldDesc& desc, const FieldLayout& layout, std::span<const Ra
         int backfaces = 0, hits = 0;
         for (std::size_t r = 0; r < rays; ++r) {
             const RayDatum& d = row[r];
-            const bool backface = std::signbit(d.distance);
+            const float distance = kernels::safeDistance(d.distance);
+            const bool backface = kernels::hitBackface(distance);
             backfaces += backface ? 1 : 0;
-            hits += d.distance < kMissDistance ? 1 : 0;
-            for (int c = 0; c < 3; ++c) in.radiance(3 * p + c, r) = backface ? 0.0f : safeRadiance(d.radiance[c]);
-            const float finite = std::isnan(d.distance) ? layout.maxDistance : d.distance;
-            const float fraction = kernels::visibilityDistance(finite, layout.maxDistance);
+            hits += distance < kernels::kMissDistance ? 1 : 0;
+            for (int c = 0; c < 3; ++c)
+                in.radiance(3 * p + c, r) = backface ? 0.0f : kernels::safeRadiance(d.radiance[c]);
+            const float fraction = kernels::visibilityDistance(distance, layout.maxDistance);
             in.distance(2 * p, r) = fraction;
             in.distance(2 * p + 1, r) = fraction * fraction;
             if (in.weighted) in.valid(p, r) = backface ? 0.0f : 1.0f;
         }
-        in.backfaceShare[p] = hits > 0 ? float(backfaces) / float(hits) : 0.0f;
+        in.backfaceShare[p] = kernels::backfaceShareOf(backfaces, hits);
     }
 }
 
@@ -83,7 +74,7 @@ void gather(const FieldDesc& desc, const FieldLayout& layout, std::span<const Ra
 void divideByValidity(const Matrix& validity, Matrix& irradiance) {
     for (std::size_t row = 0; row < irradiance.rows; ++row)
         for (std::size_t texel = 0; texel < irradiance.columns; ++texel)
-            irradiance(row, texel) /= std::max(validity(row / 3, texel), 1e-6f);
+            irradiance(row, texel) = kernels::withoutBackfaces(irradiance(row, texel), validity(row / 3, texel));
 }
 
 // One probe's new irradiance (rows r, g, b over the texels) joins the stored one.
@@ -98,11 +89,9 @@ void storeIrradiance(const FieldDesc& desc, const BlendFrame& frame, const Matri
         const glm::vec3 newMean(r[t], g[t], b[t]);
         const glm::vec3 old(kernels::unpackHalf(stored[0]), kernels::unpackHalf(stored[1]),
                             kernels::unpackHalf(stored[2]));
-        const glm::vec3 value = frame.linear ? kernels::blendLinear(old, newMean, rule.hysteresis)
-                                             : kernels::blendEncoded(old, newMean, rule);
-        // One dither for the three channels: it keeps greys grey.
-        const std::uint32_t dither = kernels::storageDither(frame.ditherSeed, std::uint32_t(probe * texels + t)) >> 19;
-        for (int c = 0; c < 3; ++c) stored[c] = std::uint16_t(kernels::packHalfDithered(value[c], dither));
+        const glm::uvec3 bits = kernels::blendIrradianceTexel(old, newMean, rule, frame.linear, frame.ditherSeed,
+                                                              std::uint32_t(probe * texels + t));
+        for (int c = 0; c < 3; ++c) stored[c] = std::uint16_t(bits[c]);
     }
 }
 
@@ -111,16 +100,9 @@ void storeVisibility(const BlendFrame& frame, const Matrix& mean, std::size_t ro
     const float h = frame.hysteresis.visibility;
     const float* d = &mean(row, 0);
     const float* dd = &mean(row + 1, 0);
-    for (std::size_t t = 0; t < texels; ++t) {
-        const std::uint32_t random =
-            kernels::storageDither(frame.ditherSeed ^ 0x5bd1e995u, std::uint32_t(probe * texels + t));
-        const float oldMean = kernels::unpackUnorm16(map[t] & 0xffffu);
-        const float oldSquare = kernels::unpackUnorm16(map[t] >> 16u);
-        const float newMean = glm::mix(d[t], oldMean, h);
-        const float newSquare = glm::mix(dd[t], oldSquare, h);
-        const float u = kernels::uintToUnit(random);
-        map[t] = kernels::packUnorm16Dithered(newMean, u) | kernels::packUnorm16Dithered(newSquare, u) << 16u;
-    }
+    for (std::size_t t = 0; t < texels; ++t)
+        map[t] = kernels::blendVisibilityTexel(map[t], {d[t], dd[t]}, h, frame.ditherSeed,
+                                               std::uint32_t(probe * texels + t));
 }
 
 }  // namespace

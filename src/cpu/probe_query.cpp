@@ -9,7 +9,9 @@
 #include "cpu/leak_guards.h"
 #include "kernels/irradiance_decoding.h"
 #include "kernels/octahedral_texel.h"
-#include "kernels/storage.h"
+#include "kernels/probe_cage.h"
+#include "kernels/probe_neighbours.h"
+#include "kernels/probe_texel.h"
 
 namespace probegi {
 
@@ -69,19 +71,20 @@ glm::vec3 decoded(const Texel& s) {
            kernels::kPi;
 }
 
-// Sum of weights below which the cage does not know: what is left are probes in walls, or probes whose moments say that
-// they do not see the point (eight of them at the floor of the Chebyshev weight sum to 0.004 at most).
-constexpr float kDoubtful = 0.005f;
-// Half the side, in probes, of the block that is searched then.
-constexpr int kSearch = 2;
+// How far one probe sees the point, as the field's guard has it.
+float neighbourVisibility(const FieldView& view, int probe, glm::vec3 fromProbe) {
+    if (view.desc->guard == LeakGuard::none) return 1.0f;
+    const float distance = glm::length(fromProbe) + kernels::kNoLength;
+    return kernels::neighbourVisibility(probeMoments(view, probe, fromProbe / distance),
+                                        distance * view.inverseMaxDistance);
+}
 
-// The answer where the probes of the cage do not know: the probes of a wider block, weighted by distance, facing, what
-// their moments say of the way and whether they stand in walls; black only where all of them do.
-glm::vec3 queryNeighbours(const FieldView& view, const FieldQuery& query, glm::vec3 bias) {
+// The answer where the probes of the cage do not know (kernels/probe_neighbours.h); `local` is the point in the grid.
+// Black only where all probes of the block stand in walls.
+glm::vec3 queryNeighbours(const FieldView& view, const FieldQuery& query, glm::vec3 bias, glm::vec3 local) {
     const GridDesc& grid = view.desc->grid;
-    const glm::ivec3 base(glm::floor((query.position + kernels::kCageBias * bias - grid.origin) * view.inverseSpacing));
-    const glm::ivec3 lowest = glm::clamp(base - (kSearch - 1), glm::ivec3(0), grid.counts - 1);
-    const glm::ivec3 highest = glm::clamp(base + kSearch, glm::ivec3(0), grid.counts - 1);
+    const glm::ivec3 lowest = kernels::searchLowest(local, grid.counts);
+    const glm::ivec3 highest = kernels::searchHighest(local, grid.counts);
     const Footprint footprint = irradianceFootprint(view, query.normal);
     const std::size_t halvesPerProbe = 3 * std::size_t(view.desc->irradianceTexels * view.desc->irradianceTexels);
     glm::vec3 sum(0.0f);
@@ -89,21 +92,12 @@ glm::vec3 queryNeighbours(const FieldView& view, const FieldQuery& query, glm::v
     for (int z = lowest.z; z <= highest.z; ++z)
         for (int y = lowest.y; y <= highest.y; ++y)
             for (int x = lowest.x; x <= highest.x; ++x) {
-                const int probe = x + grid.counts.x * (y + grid.counts.y * z);
+                const int probe = kernels::probeNumber({x, y, z}, grid.counts);
                 const float outside = kernels::outsideWeight(view.backfaceShare[probe]);
                 if (outside <= 0.0f) continue;
-                const glm::vec3 toProbe = probePosition(grid, probe) - query.position;
-                const float distance = glm::length(toProbe) + 1e-20f;
-                const glm::vec3 toPoint = bias - toProbe;
-                const float toPointLength = glm::length(toPoint) + 1e-20f;
-                const glm::vec2 moments = probeMoments(view, probe, toPoint / toPointLength);
-                // Beyond the farthest stored distance the moments cannot tell what is in the way.
-                const float fraction = toPointLength * view.inverseMaxDistance;
-                const float visible =
-                    fraction < 1.0f ? kernels::chebyshevWeight(moments.x, moments.y, fraction) : kernels::kMinChebyshev;
-                const float near = view.minSpacing / (view.minSpacing + distance);
-                const float facing = kernels::backfaceWeight(glm::dot(toProbe, query.normal) / distance);
-                const float weight = outside * near * near * near * near * kernels::crushWeight(facing * visible);
+                const glm::vec3 toProbe = kernels::probePlace({x, y, z}, grid.origin, grid.spacing) - query.position;
+                const float visible = neighbourVisibility(view, probe, bias - toProbe);
+                const float weight = kernels::neighbourWeight(outside, toProbe, query.normal, visible, view.minSpacing);
                 sum += weight *
                        decoded(storedIrradiance(view.irradiance + halvesPerProbe * std::size_t(probe), footprint));
                 weightSum += weight;
@@ -115,15 +109,15 @@ glm::vec3 queryNeighbours(const FieldView& view, const FieldQuery& query, glm::v
 template <class Guard>
 glm::vec3 queryOne(const FieldView& view, FieldQuery query, const Guard& guard) {
     const GridDesc& grid = view.desc->grid;
-    // Outside the grid the nearest point of it answers: farther away no probe could see the point.
-    query.position = glm::clamp(query.position, grid.origin, grid.origin + grid.spacing * glm::vec3(grid.counts - 1));
+    query.position = kernels::clampToGrid(query.position, grid.origin, grid.spacing, grid.counts);
     const glm::vec3 bias =
         kernels::selfShadowBias(query.normal, query.toViewer, view.minSpacing, view.desc->selfShadowBias);
     // The cage and the trilinear weights belong to a point a little off the surface: on a wall that runs through a
     // layer of probes the answer would otherwise lean on that layer alone.
-    const glm::vec3 local = (query.position + kernels::kCageBias * bias - grid.origin) * view.inverseSpacing;
-    const glm::vec3 base = glm::clamp(glm::floor(local), glm::vec3(0.0f), glm::vec3(grid.counts - 2));
-    const glm::vec3 alpha = glm::clamp(local - base, 0.0f, 1.0f);
+    const glm::vec3 local =
+        kernels::gridCoordinates(query.position + kernels::kCageBias * bias, grid.origin, view.inverseSpacing);
+    const glm::vec3 base = kernels::cageBase(local, grid.counts);
+    const glm::vec3 alpha = kernels::cageAlpha(local, base);
     const glm::vec3 fromBase = query.position - (grid.origin + base * grid.spacing);
 
     // From the point to each probe.
@@ -155,17 +149,13 @@ glm::vec3 queryOne(const FieldView& view, FieldQuery query, const Guard& guard) 
         // kernels::decodeToBlendSpace, four channels abreast.
         sum += float(weight[lane]) * (stored * stored * wide::stdx::sqrt(stored));
     }
-    if (weightSum >= kDoubtful) {
+    if (weightSum >= kernels::kDoubtful) {
         sum /= weightSum;
         return glm::vec3(sum[0] * sum[0], sum[1] * sum[1], sum[2] * sum[2]) * kernels::kPi;
     }
     if (view.fallbacks) view.fallbacks->fetch_add(1, std::memory_order_relaxed);
-    // The neighbours make up the weight that is missing, so that the answer stays continuous in space.
-    const glm::vec3 neighbours = glm::sqrt(queryNeighbours(view, query, bias) * (1.0f / kernels::kPi));
-    const float missing = kDoubtful - weightSum;
-    glm::vec3 root;
-    for (int c = 0; c < 3; ++c) root[c] = (sum[c] + missing * neighbours[c]) / kDoubtful;
-    return root * root * kernels::kPi;
+    return kernels::completedByNeighbours({sum[0], sum[1], sum[2]}, weightSum,
+                                          queryNeighbours(view, query, bias, local));
 }
 
 template <class Guard>
@@ -212,8 +202,7 @@ glm::vec2 probeMoments(const FieldView& view, int probe, glm::vec3 direction) {
     glm::vec2 moments(0.0f);
     for (int tap = 0; tap < 4; ++tap) {
         const std::uint32_t packed = map[f.offset[tap]];
-        moments +=
-            f.weight[tap] * glm::vec2(kernels::unpackUnorm16(packed & 0xffffu), kernels::unpackUnorm16(packed >> 16u));
+        moments += f.weight[tap] * kernels::unpackMoments(packed);
     }
     return moments;
 }

@@ -6,7 +6,7 @@
 
 #include "core/parallel.h"
 #include "cpu/lighting.h"
-#include "kernels/language.h"
+#include "kernels/bounce.h"
 #include "scene/sky.h"
 
 namespace probegi {
@@ -115,10 +115,8 @@ void traceProbes(const Context& context, const GridDesc& grid, std::span<const g
         resolveHits(lighting, b, out);
         queryBounces(lastFrame, b);
         addDirectLight(tracer, lighting, magnitude, b);
-        for (std::size_t k = 0; k < b.lit.size(); ++k) {
-            const glm::vec3 albedo = glm::min(b.surfaces[b.lit[k]].albedo, glm::vec3(kMaxBounceAlbedo));
-            out[b.lit[k]].radiance += albedo * b.irradiance[k] * (1.0f / kernels::kPi);
-        }
+        for (std::size_t k = 0; k < b.lit.size(); ++k)
+            out[b.lit[k]].radiance += kernels::bounceRadiance(b.surfaces[b.lit[k]].albedo, b.irradiance[k]);
         times.traceNs += nanoseconds(traced - start);
         times.shadeNs += nanoseconds(Clock::now() - traced);
     });

@@ -8,9 +8,6 @@
 
 namespace probegi {
 
-/// Albedo of a surface in the field's bounces is at most this: a closed room of albedo 1 has no steady state.
-inline constexpr float kMaxBounceAlbedo = 0.98f;
-
 /// Nanoseconds summed over threads.
 struct TraceTimes {
     std::atomic<std::int64_t> traceNs{0};

@@ -1,23 +1,13 @@
 #pragma once
 
-#include "field/hysteresis.h"
-#include "probegi/field.h"
+#include "field/frame_books.h"
 
 namespace probegi {
 
-/// One update as the backend sees it: what Field's books say of the coming frame.
-struct UpdateFrame {
-    const FieldDesc& desc;                  ///< with the guard of the day
-    std::span<const glm::vec3> directions;  ///< unit, raysPerProbe of them
-    FrameHysteresis hysteresis;
-    bool linear = false;           ///< kernels::blendLinear instead of blendEncoded: for averages
-    std::uint32_t ditherSeed = 0;  ///< differs between frames
-    bool bounces = true;           ///< whether the probes hold light of an earlier update
-};
-
 /// The third axis of the pipeline: where a field's passes run and where its probes lie. Field keeps the frame's books
 /// (directions, hysteresis, convergence) and calls one of these. One thread updates at a time; queries may be
-/// concurrent with each other.
+/// concurrent with each other. Functions that return a Result may throw std::bad_alloc, which Field turns into an
+/// Error.
 class FieldBackend {
 public:
     virtual ~FieldBackend() = default;
@@ -45,5 +35,7 @@ public:
 Field makeFieldOn(const Context& context, const FieldDesc& desc, std::unique_ptr<FieldBackend> backend);
 /// The backend of a Field.
 const FieldBackend& backendOf(const Field& field) noexcept;
+/// outOfMemory, in the words that every backend uses where its probes do not fit.
+Error probesDoNotFit(const FieldDesc& desc);
 
 }  // namespace probegi

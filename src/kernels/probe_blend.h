@@ -6,6 +6,44 @@
 
 KERNELS_BEGIN
 
+// RayDatum::distance of a ray that hit nothing is at least this.
+KERNEL_CONST float kMissDistance = 1e27f;
+// Bits of 1e30f and of infinity. Conditions on values that may be no numbers are on their bits: a shader compiler may
+// assume that there are none.
+KERNEL_CONST uint kTooBrightBits = 0x7149f2cau;
+KERNEL_CONST uint kInfinityBits = 0x7f800000u;
+
+// A channel of a ray's radiance: what is not a number, infinite, negative or above 1e30 never enters an atlas.
+KERNEL_FN float safeRadiance(float x) {
+    return select(floatBitsToUint(x) < kTooBrightBits, x, 0.0f);
+}
+
+// A ray's distance: not a number is a miss.
+KERNEL_FN float safeDistance(float signedDistance) {
+    return select((floatBitsToUint(signedDistance) & 0x7fffffffu) > kInfinityBits, 1e30f, signedDistance);
+}
+
+// Whether a ray hit the back of a surface: the sign of its safe distance, at distance 0 too.
+KERNEL_FN bool hitBackface(float safeSignedDistance) {
+    return (floatBitsToUint(safeSignedDistance) & 0x80000000u) != 0u;
+}
+
+// Share of a probe's hits that were on backfaces.
+KERNEL_FN float backfaceShareOf(int backfaces, int hits) {
+    return select(hits > 0, float(backfaces) / float(max(hits, 1)), 0.0f);
+}
+
+// Factor that makes weights of this sum add up to 1. A texel that no ray comes near (few rays, high exponent) keeps
+// weight 0 throughout.
+KERNEL_FN float normalisingFactor(float weightSum) {
+    return select(weightSum > 1e-20f, 1.0f / max(weightSum, 1e-20f), 0.0f);
+}
+
+// BackfaceRule::excluded: the weights of the rays that count, instead of all weights, sum to 1. `validity`: the former.
+KERNEL_FN float withoutBackfaces(float mean, float validity) {
+    return mean / max(validity, 1e-6f);
+}
+
 // Weight of a ray for an irradiance texel: the clamped cosine of eq. 1 (normalised by the caller with the sum of
 // weights).
 KERNEL_FN float irradianceWeight(vec3 texelDirection, vec3 rayDirection) {

@@ -55,15 +55,16 @@ TileRenderer::TileRenderer(const Tracer& tracer, const Lighting& lighting, const
       m_camera(desc.camera, desc.width, desc.height),
       m_sceneMagnitude(sceneMagnitude(tracer.bounds())) {}
 
-void TileRenderer::render(const Tile& tile, TileSamples& samples, Picture& picture) {
+Result<void> TileRenderer::render(const Tile& tile, TileSamples& samples, Picture& picture) {
     auto start = Clock::now();
     castPrimary(tile, samples);
     lap(start, m_primaryNs);
     shadeDirect(m_tracer, m_lighting, m_sceneMagnitude, m_desc.diffuseOnly, samples);
     lap(start, m_directNs);
-    queryField(samples);
+    if (auto asked = queryField(samples); !asked) return asked;
     lap(start, m_queryNs);
     resolve(tile, samples, picture);
+    return {};
 }
 
 void TileRenderer::castPrimary(const Tile& tile, TileSamples& samples) const {
@@ -84,15 +85,15 @@ void TileRenderer::castPrimary(const Tile& tile, TileSamples& samples) const {
         if (samples.hits[i].valid()) samples.seen.push_back(i);
 }
 
-void TileRenderer::queryField(TileSamples& samples) const {
+Result<void> TileRenderer::queryField(TileSamples& samples) const {
     samples.irradiance.assign(samples.seen.size(), glm::vec3(0.0f));
-    if (!m_field) return;
+    if (!m_field) return {};
     samples.queries.clear();
     for (const std::uint32_t index : samples.seen) {
         const Surface& surface = samples.surfaces[index];
         samples.queries.push_back({surface.position, surface.shadingNormal, -samples.rays[index].direction});
     }
-    m_field->irradiance(samples.queries, samples.irradiance);
+    return m_field->irradiance(samples.queries, samples.irradiance);
 }
 
 void TileRenderer::resolve(const Tile& tile, const TileSamples& samples, Picture& picture) const {

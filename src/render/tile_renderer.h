@@ -15,14 +15,15 @@ class TileRenderer {
 public:
     TileRenderer(const Tracer& tracer, const Lighting& lighting, const Field* field, const PictureDesc& desc);
 
-    void render(const Tile& tile, TileSamples& samples, Picture& picture);
+    /// Errors: those of Field::irradiance.
+    Result<void> render(const Tile& tile, TileSamples& samples, Picture& picture);
 
     /// Time of each stage, summed over threads.
     PictureTimes threadTimes() const;
 
 private:
     void castPrimary(const Tile& tile, TileSamples& samples) const;
-    void queryField(TileSamples& samples) const;
+    Result<void> queryField(TileSamples& samples) const;
     void resolve(const Tile& tile, const TileSamples& samples, Picture& picture) const;
 
     const Tracer& m_tracer;

@@ -120,12 +120,22 @@ TEST(Blend, badRadianceAndDistanceNeverEnterTheAtlas) {
     for (std::size_t i = 0; i < good.data.size(); i += 11) {
         good.data[i] = {glm::vec3(0), 100.0f};
         const float poison[] = {kNan, kInfinity, -kInfinity, -1.0f};
-        bad.data[i] = {glm::vec3(poison[i % 4]), i % 3 ? kNan : kInfinity};
+        const float far[] = {kNan, -kNan, kInfinity};
+        bad.data[i] = {glm::vec3(poison[i % 4]), far[i / 11 % 3]};
     }
     good.blend();
     bad.blend();
     EXPECT_EQ(good.storage.irradiance, bad.storage.irradiance);
     EXPECT_EQ(good.storage.visibility, bad.storage.visibility);
+}
+
+// The sign of not-a-number says nothing: 0 / 0 has either.
+TEST(Blend, notANumberIsNoBackface) {
+    BlendInput s;
+    for (RayDatum& d : s.data) d = {glm::vec3(2.0f), -kNan};
+    s.blend();
+    for (const float share : s.storage.backfaceShare) EXPECT_EQ(share, 0.0f);
+    EXPECT_NEAR(kernels::decodeIrradiance(s.stored(3, 20, 1)), 2.0f, 0.02f);
 }
 
 TEST(Blend, allRaysOnBackfacesAreDarkUnderBothRules) {

@@ -61,7 +61,7 @@ TEST(Field, spanQueryEqualsSingleQueriesForAnyNumberOfThreads) {
         ASSERT_TRUE(field.update(data));
         ASSERT_TRUE(field.update(data));
         std::vector<glm::vec3> out(queries.size());
-        field.irradiance(queries, out);
+        ASSERT_TRUE(field.irradiance(queries, out));
         for (std::size_t i = 0; i < queries.size(); i += 97) EXPECT_EQ(out[i], field.irradiance(queries[i]));
         if (first.empty()) first = out;
         EXPECT_EQ(out, first);
@@ -135,6 +135,33 @@ TEST(Field, momentsGuardIgnoresProbesBehindAWall) {
     };
     EXPECT_GT(irradianceIn(LeakGuard::none), 0.05f * 3.14159f);
     EXPECT_LT(irradianceIn(LeakGuard::moments), 0.005f * 3.14159f);
+}
+
+// The wider search too: where the cage stands in a wall, the guard alone decides whether distances count.
+TEST(Field, onlyTheMomentsGuardLooksAtDistances) {
+    const auto irradianceIn = [](LeakGuard guard, float distanceOfBrightProbes) {
+        FieldDesc desc;
+        desc.grid = {{0, 0, 0}, {1, 1, 1}, {6, 4, 4}};
+        desc.guard = guard;
+        Field field = *Field::create(kContext, desc);
+        std::vector<RayDatum> data;
+        for (int probe = 0; probe < probeCount(desc.grid); ++probe) {
+            const int x = probe % 6;
+            const bool wall = x == 2 || x == 3;
+            const RayDatum bright{glm::vec3(1.0f), distanceOfBrightProbes}, dark{glm::vec3(0.0f), 5.0f};
+            data.insert(data.end(), std::size_t(desc.raysPerProbe),
+                        wall    ? RayDatum{glm::vec3(0.0f), -0.1f}
+                        : x < 2 ? bright
+                                : dark);
+        }
+        EXPECT_TRUE(field.update(data));
+        const float e = field.irradiance({{2.5f, 1.5f, 1.5f}, {0, 1, 0}, {0, 1, 0}}).x;
+        EXPECT_EQ(field.fallbackQueries(), 1u);
+        return e;
+    };
+    EXPECT_GT(irradianceIn(LeakGuard::none, 5.0f), 0.5f);
+    EXPECT_EQ(irradianceIn(LeakGuard::none, 5.0f), irradianceIn(LeakGuard::none, 0.05f));
+    EXPECT_GT(irradianceIn(LeakGuard::moments, 5.0f), 2.0f * irradianceIn(LeakGuard::moments, 0.05f));
 }
 
 }  // namespace

@@ -14,6 +14,17 @@ void evaluate(INOUT(Lane) lane) {
     rule.significantChange = takeBetween(lane, 0.0f, 0.5f);
     rule.newDistribution = takeBetween(lane, 0.0f, 1.0f);
 
+    // Any bits, not-a-number and infinity among them.
+    const float anything = uintBitsToFloat(takeBits(lane));
+    give(lane, safeRadiance(anything), 1e-6f);
+    give(lane, safeDistance(anything), 1e-6f);
+    giveBits(lane, hitBackface(safeDistance(anything)) ? 1u : 0u);
+    giveBits(lane, hitBackface(signedDistance) ? 1u : 0u);
+    give(lane, backfaceShareOf(int(oldStored.x * 10.0f), int(oldStored.y * 10.0f)), 1e-6f);
+    give(lane, normalisingFactor(newMean.x), 1e-6f);
+    give(lane, normalisingFactor(0.0f), 0.0f);
+    give(lane, withoutBackfaces(newMean.y, oldStored.z), 2e-6f);
+
     give(lane, irradianceWeight(texel, ray), 1e-6f);
     give(lane, visibilityWeight(texel, ray, 50.0f), 2e-5f);
     give(lane, visibilityDistance(signedDistance, 3.0f), 1e-6f);

@@ -1,0 +1,137 @@
+#include "cpu/cpu_field.h"
+
+#include <algorithm>
+#include <chrono>
+#include <new>
+
+#include "core/parallel.h"
+#include "cpu/probe_trace.h"
+#include "kernels/irradiance_decoding.h"
+#include "kernels/storage.h"
+
+namespace probegi {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+Result<Field> Field::create(const Context& context, const FieldDesc& desc) {
+    if (auto ok = validateFieldDesc(desc); !ok) return tl::unexpected(ok.error());
+    try {
+        return makeFieldOn(context, desc, std::make_unique<CpuField>(context, desc));
+    } catch (const std::bad_alloc&) {
+        return tl::unexpected(probesDoNotFit(desc));
+    }
+}
+
+CpuField::CpuField(const Context& context, const FieldDesc& desc)
+    : m_context(context),
+      m_desc(desc),
+      m_layout(desc),
+      m_storage(m_layout),
+      m_irradianceTaps(makeTapTable(desc.irradianceTexels)),
+      m_visibilityTaps(makeTapTable(desc.visibilityTexels)) {}
+
+FieldView CpuField::view(const FieldDesc& desc) const noexcept {
+    const glm::vec3& s = desc.grid.spacing;
+    return {.desc = &desc,
+            .irradiance = m_storage.irradiance.data(),
+            .visibility = m_storage.visibility.data(),
+            .backfaceShare = m_storage.backfaceShare.data(),
+            .fallbacks = &m_fallbacks,
+            .irradianceTaps = &m_irradianceTaps,
+            .visibilityTaps = &m_visibilityTaps,
+            .inverseSpacing = 1.0f / s,
+            .minSpacing = std::min({s.x, s.y, s.z}),
+            .inverseMaxDistance = 1.0f / m_layout.maxDistance};
+}
+
+void CpuField::blend(const UpdateFrame& frame, std::span<const RayDatum> rayData) {
+    makeBlendWeights(m_context, frame.desc, frame.directions, m_weights);
+    blendProbes(m_context, frame.desc, m_layout, m_weights, rayData, {frame.hysteresis, frame.linear, frame.ditherSeed},
+                m_storage);
+}
+
+Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, std::span<const RayDatum> rayData) {
+    const auto start = Clock::now();
+    blend(frame, rayData);
+    const double elapsed = millisecondsSince(start);
+    return UpdateTimes{0, 0, elapsed, elapsed};
+}
+
+Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, const Tracer& tracer, const Lighting& lighting) {
+    const auto start = Clock::now();
+    m_rayData.resize(m_layout.probes * m_layout.rays);
+    TraceTimes sums;
+    const FieldView last = view(frame.desc);
+    traceProbes(m_context, frame.desc.grid, frame.directions, tracer, lighting, frame.bounces ? &last : nullptr,
+                m_rayData, sums);
+    const double traced = millisecondsSince(start);
+    blend(frame, m_rayData);
+
+    // Stages of different threads overlap: the wall time of tracing and shading is split in their proportion.
+    const double sum = std::max(1.0, double(sums.traceNs + sums.shadeNs));
+    UpdateTimes times;
+    times.trace = traced * double(sums.traceNs) / sum;
+    times.shade = traced * double(sums.shadeNs) / sum;
+    times.total = millisecondsSince(start);
+    times.blend = times.total - traced;
+    return times;
+}
+
+Result<void> CpuField::irradiance(const FieldDesc& desc, std::span<const FieldQuery> queries,
+                                  std::span<glm::vec3> out) const {
+    const FieldView all = view(desc);
+    parallelFor(m_context, queries.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        queryIrradiance(all, queries.subspan(begin, end - begin), out.subspan(begin, end - begin));
+    });
+    return {};
+}
+
+glm::vec3 CpuField::irradiance(const FieldDesc& desc, const FieldQuery& query) const noexcept {
+    glm::vec3 result;
+    queryIrradiance(view(desc), {&query, 1}, {&result, 1});
+    return result;
+}
+
+Result<std::vector<float>> CpuField::brightness() const {
+    std::vector<float> result(m_layout.probes);
+    const std::size_t values = 3 * m_layout.irradianceTexels;
+    parallelFor(m_context, m_layout.probes, 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t probe = begin; probe < end; ++probe) {
+            float sum = 0;
+            for (std::size_t v = 0; v < values; ++v)
+                sum += kernels::decodeIrradiance(kernels::unpackHalf(m_storage.irradiance[probe * values + v]));
+            result[probe] = sum / float(values);
+        }
+    });
+    return result;
+}
+
+FieldMemory CpuField::memory() const noexcept {
+    const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+    return {bytes(m_storage.irradiance), bytes(m_storage.visibility),
+            bytes(m_storage.backfaceShare) + bytes(m_irradianceTaps) + bytes(m_visibilityTaps) + sizeof(*this),
+            bytes(m_rayData) + bytes(m_weights.irradiance) + bytes(m_weights.visibility)};
+}
+
+float CpuField::probeBackfaceShare(int probe) const noexcept {
+    return m_storage.backfaceShare[std::size_t(probe)];
+}
+
+glm::vec3 CpuField::probeIrradiance(int probe, glm::vec3 normal) const noexcept {
+    return probegi::probeIrradiance(view(m_desc), probe, normal);
+}
+
+glm::vec2 CpuField::probeDistanceMoments(int probe, glm::vec3 direction) const noexcept {
+    const float d = m_layout.maxDistance;
+    return probeMoments(view(m_desc), probe, direction) * glm::vec2(d, d * d);
+}
+
+}  // namespace probegi

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+#include "cpu/probe_blend.h"
+#include "cpu/probe_query.h"
+#include "field/field_backend.h"
+
+namespace probegi {
+
+/// A field on threads and SIMD, with its probes in main memory.
+class CpuField final : public FieldBackend {
+public:
+    CpuField(const Context& context, const FieldDesc& desc);
+
+    Result<UpdateTimes> update(const UpdateFrame& frame, std::span<const RayDatum> rayData) override;
+    Result<UpdateTimes> update(const UpdateFrame& frame, const Tracer& tracer, const Lighting& lighting) override;
+    Result<void> irradiance(const FieldDesc& desc, std::span<const FieldQuery> queries,
+                            std::span<glm::vec3> out) const override;
+    glm::vec3 irradiance(const FieldDesc& desc, const FieldQuery& query) const noexcept override;
+    Result<std::vector<float>> brightness() const override;
+
+    FieldMemory memory() const noexcept override;
+    std::uint64_t fallbackQueries() const noexcept override { return m_fallbacks.load(); }
+    float probeBackfaceShare(int probe) const noexcept override;
+    glm::vec3 probeIrradiance(int probe, glm::vec3 normal) const noexcept override;
+    glm::vec2 probeDistanceMoments(int probe, glm::vec3 direction) const noexcept override;
+
+private:
+    FieldView view(const FieldDesc& desc) const noexcept;
+    void blend(const UpdateFrame& frame, std::span<const RayDatum> rayData);
+
+    Context m_context;
+    FieldDesc m_desc;  // as it was made: sizes, not the guard
+    FieldLayout m_layout;
+    FieldStorage m_storage;
+    TapTable m_irradianceTaps, m_visibilityTaps;
+    std::vector<RayDatum> m_rayData;
+    BlendWeights m_weights;
+    mutable std::atomic<std::uint64_t> m_fallbacks{0};
+};
+
+}  // namespace probegi

@@ -1,0 +1,160 @@
+#include "probegi/field.h"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <cmath>
+#include <new>
+
+#include "core/progress.h"
+#include "field/field_backend.h"
+
+namespace probegi {
+
+namespace {
+
+constexpr const char* kNoRayDataMemory = "no memory for the update's ray data; use fewer probes or rays";
+// Converging compares the field after this many updates, twice as many, and so on.
+constexpr int kFirstConvergenceCheck = 8;
+
+// Mean absolute difference over mean.
+float relativeChange(std::span<const float> before, std::span<const float> after) {
+    double difference = 0, sum = 0;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        difference += std::abs(double(after[i]) - before[i]);
+        sum += after[i];
+    }
+    return sum > 0 ? float(difference / sum) : 0.0f;
+}
+
+}  // namespace
+
+struct Field::Impl {
+    Impl(const Context& c, const FieldDesc& desc, std::unique_ptr<FieldBackend> b)
+        : context(c), books(desc), backend(std::move(b)) {}
+
+    // A failed update is no frame: the next one has its rays and its dither.
+    Result<UpdateTimes> ended(Result<UpdateTimes> times) {
+        if (times) books.advance();
+        return times;
+    }
+
+    static Field make(std::unique_ptr<Impl> impl) { return Field(std::move(impl)); }
+    static const FieldBackend& backendOf(const Field& field) { return *field.m_impl->backend; }
+
+    Context context;
+    FrameBooks books;
+    std::unique_ptr<FieldBackend> backend;
+};
+
+Field makeFieldOn(const Context& context, const FieldDesc& desc, std::unique_ptr<FieldBackend> backend) {
+    return Field::Impl::make(std::make_unique<Field::Impl>(context, desc, std::move(backend)));
+}
+
+const FieldBackend& backendOf(const Field& field) noexcept {
+    return Field::Impl::backendOf(field);
+}
+
+Error probesDoNotFit(const FieldDesc& desc) {
+    return {ErrorCode::outOfMemory,
+            fmt::format("no memory for {} probes; use fewer or smaller ones", probeCount(desc.grid))};
+}
+
+Field::Field(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
+Field::Field(Field&&) noexcept = default;
+Field& Field::operator=(Field&&) noexcept = default;
+Field::~Field() = default;
+
+const FieldDesc& Field::desc() const noexcept {
+    return m_impl->books.desc();
+}
+int Field::frame() const noexcept {
+    return m_impl->books.frame();
+}
+std::span<const glm::vec3> Field::rayDirections() const noexcept {
+    return m_impl->books.rayDirections();
+}
+std::uint64_t Field::fallbackQueries() const noexcept {
+    return m_impl->backend->fallbackQueries();
+}
+void Field::notify(FieldEvent event) noexcept {
+    m_impl->books.notify(event);
+}
+void Field::setGuard(LeakGuard guard) noexcept {
+    m_impl->books.setGuard(guard);
+}
+
+FieldMemory Field::memory() const noexcept {
+    FieldMemory memory = m_impl->backend->memory();
+    memory.stateBytes += m_impl->books.bytes();
+    return memory;
+}
+
+Result<UpdateTimes> Field::update(std::span<const RayDatum> rayData) try {
+    const FieldDesc& desc = m_impl->books.desc();
+    const std::size_t expected = std::size_t(probeCount(desc.grid)) * std::size_t(desc.raysPerProbe);
+    if (rayData.size() != expected)
+        return fail(
+            ErrorCode::invalidArgument,
+            fmt::format("rayData has {} entries; it must have probes x raysPerProbe = {}", rayData.size(), expected));
+    return m_impl->ended(m_impl->backend->update(m_impl->books.comingUpdate(), rayData));
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, kNoRayDataMemory);
+}
+
+Result<UpdateTimes> Field::update(const Tracer& tracer, const Lighting& lighting) try {
+    return m_impl->ended(m_impl->backend->update(m_impl->books.comingUpdate(), tracer, lighting));
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, kNoRayDataMemory);
+}
+
+Result<int> Field::converge(const Tracer& tracer, const Lighting& lighting, float tolerance, int maxFrames,
+                            const std::function<void(const UpdateTimes&)>& onUpdate) try {
+    if (!(tolerance > 0)) return fail(ErrorCode::invalidArgument, "tolerance must be greater than 0");
+    if (maxFrames < 1) return fail(ErrorCode::invalidArgument, "maxFrames must be at least 1");
+    Impl& m = *m_impl;
+    Progress progress(m.context, "converging probes", maxFrames);
+    std::vector<float> earlier;
+    int nextCheck = kFirstConvergenceCheck;
+    for (int k = 1; k <= maxFrames; ++k) {
+        const float kept = k == 1 ? 0.0f : 1.0f - 3.0f / float(k + 2);
+        const auto times = m.ended(m.backend->update(m.books.comingAverage(kept), tracer, lighting));
+        if (!times) return tl::unexpected(times.error());
+        if (onUpdate) onUpdate(*times);
+        if (!progress.advance()) return fail(ErrorCode::cancelled, "cancelled while converging probes");
+        if (k < nextCheck) continue;
+        nextCheck *= 2;
+        auto now = m.backend->brightness();
+        if (!now) return tl::unexpected(now.error());
+        if (!earlier.empty() && relativeChange(earlier, *now) < tolerance) return k;
+        earlier = std::move(*now);
+    }
+    return maxFrames;
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, kNoRayDataMemory);
+}
+
+glm::vec3 Field::irradiance(const FieldQuery& query) const noexcept {
+    return m_impl->backend->irradiance(m_impl->books.desc(), query);
+}
+
+Result<void> Field::irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> out) const try {
+    assert(queries.size() == out.size());
+    return m_impl->backend->irradiance(m_impl->books.desc(), queries, out);
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, "no memory for this many queries; ask for fewer at a time");
+}
+
+float Field::probeBackfaceShare(int probe) const noexcept {
+    return m_impl->backend->probeBackfaceShare(probe);
+}
+
+glm::vec3 Field::probeIrradiance(int probe, glm::vec3 normal) const noexcept {
+    return m_impl->backend->probeIrradiance(probe, normal);
+}
+
+glm::vec2 Field::probeDistanceMoments(int probe, glm::vec3 direction) const noexcept {
+    return m_impl->backend->probeDistanceMoments(probe, direction);
+}
+
+}  // namespace probegi

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "field/hysteresis.h"
+#include "probegi/field.h"
+
+namespace probegi {
+
+/// One update as a backend sees it: what the books say of the coming frame.
+struct UpdateFrame {
+    const FieldDesc& desc;                  ///< with the guard of the day
+    std::span<const glm::vec3> directions;  ///< unit, raysPerProbe of them
+    FrameHysteresis hysteresis;
+    bool linear = false;           ///< kernels::blendLinear instead of blendEncoded: for averages
+    std::uint32_t ditherSeed = 0;  ///< differs between frames
+    bool bounces = true;           ///< whether the probes hold light of an earlier update
+};
+
+/// What a volume of probes keeps from frame to frame besides its probes, the same on every backend: how many updates
+/// there were, the coming one's ray directions and dither, and the hysteresis that events lower.
+class FrameBooks {
+public:
+    /// The desc must be valid.
+    explicit FrameBooks(const FieldDesc& desc);
+
+    const FieldDesc& desc() const noexcept { return m_desc; }
+    int frame() const noexcept { return m_frame; }  ///< updates so far
+    std::span<const glm::vec3> rayDirections() const noexcept { return m_directions; }
+    std::size_t bytes() const noexcept;
+
+    void notify(FieldEvent event) noexcept { m_events.notify(event); }
+    void setGuard(LeakGuard guard) noexcept { m_desc.guard = guard; }
+
+    /// The coming update by the paper: in encoded space, with the described hysteresis. Valid until advance().
+    UpdateFrame comingUpdate() const noexcept;
+    /// The coming update as part of an average in linear space, of whose old value `kept` survives.
+    UpdateFrame comingAverage(float kept) const noexcept;
+    /// Ends the frame: after the update.
+    void advance();
+
+private:
+    void turnRays();
+
+    FieldDesc m_desc;
+    std::vector<glm::vec3> m_directions;
+    HysteresisSchedule m_events;
+    int m_frame = 0;
+};
+
+}  // namespace probegi

@@ -1,0 +1,29 @@
+#include "lane.h"
+
+#include "kernels/probe_cage.h"
+
+// Grid positions are given in quarters: far from a whole number, where a rounding would choose another probe, or on it.
+void evaluate(INOUT(Lane) lane) {
+    const vec3 position = takeVector(lane, -20.0f, 20.0f);
+    const vec3 origin = takeVector(lane, -5.0f, 5.0f);
+    const vec3 spacing = takeVector(lane, 0.25f, 3.0f);
+    const int countX = 2 + takeIndex(lane, 6);
+    const int countY = 2 + takeIndex(lane, 6);
+    const int countZ = 2 + takeIndex(lane, 6);
+    const int quarterX = takeIndex(lane, 64) - 24;
+    const int quarterY = takeIndex(lane, 64) - 24;
+    const int quarterZ = takeIndex(lane, 64) - 24;
+    const ivec3 counts = ivec3(countX, countY, countZ);
+    const vec3 inGrid = vec3(float(quarterX), float(quarterY), float(quarterZ)) * 0.25f;
+
+    giveVec3(lane, clampToGrid(position, origin, spacing, counts), 2e-6f);
+    giveVec3(lane, gridCoordinates(position, origin, vec3(1.0f) / spacing), 2e-5f);
+    const vec3 base = cageBase(inGrid, counts);
+    giveVec3(lane, base, 0.0f);
+    giveVec3(lane, cageAlpha(inGrid, base), 0.0f);
+    const ivec3 lowest = searchLowest(inGrid, counts);
+    const ivec3 highest = searchHighest(inGrid, counts);
+    giveBits(lane, uint(probeNumber(lowest, counts)));
+    giveBits(lane, uint(probeNumber(highest, counts)));
+    giveVec3(lane, probePlace(highest, origin, spacing), 2e-6f);
+}
