@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "cpu/lighting.h"
 #include "reference/luminance.h"
 #include "reference/path_batch.h"
+#include "surface/lighting.h"
 
 namespace probegi {
 

@@ -1,4 +1,4 @@
-#include "cpu/surface_shader.h"
+#include "surface/surface_shader.h"
 
 #include <cmath>
 #include <glm/common.hpp>

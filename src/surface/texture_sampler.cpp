@@ -1,4 +1,4 @@
-#include "cpu/texture_sampler.h"
+#include "surface/texture_sampler.h"
 
 #include <algorithm>
 #include <array>
