@@ -1,7 +1,9 @@
 #include "surface/scene_geometry.h"
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <utility>
 
 namespace probegi {
@@ -27,6 +29,25 @@ SceneGeometry SceneGeometry::gather(const Scene& scene, const ScenePose& pose, c
         result.placements.push_back({groupOf[mesh], instance.node, instance.toWorld, normalMatrix(instance.toWorld)});
     }
     return result;
+}
+
+Bounds SceneGeometry::bounds() const {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    Bounds all{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
+    if (!world.empty()) all = world.bounds();
+    std::vector<Bounds> boxes;
+    for (const SurfaceGroup& group : groups) boxes.push_back(group.bounds());
+    for (const Placement& placement : placements) {
+        const Bounds& box = boxes[std::size_t(placement.group)];
+        const glm::mat3 linear(placement.toWorld);
+        const glm::vec3 half = 0.5f * box.size();
+        const glm::vec3 centre(placement.toWorld * glm::vec4(box.centre(), 1.0f));
+        const glm::vec3 reach =
+            glm::abs(linear[0]) * half.x + glm::abs(linear[1]) * half.y + glm::abs(linear[2]) * half.z;
+        all.lower = glm::min(all.lower, centre - reach);
+        all.upper = glm::max(all.upper, centre + reach);
+    }
+    return all.lower.x <= all.upper.x ? all : Bounds{};
 }
 
 InstancePredicate animatedInstances(const Scene& scene) {

@@ -32,6 +32,9 @@ struct SceneGeometry {
     /// is applied to the mesh in any case.
     static SceneGeometry gather(const Scene& scene, const ScenePose& pose, const InstancePredicate& movable = {});
 
+    /// Of everything, metres; boxes of placed groups are transformed as boxes. Zero-sized where there are no triangles.
+    Bounds bounds() const;
+
     const SurfaceGroup& group(const Placement& placement) const noexcept {
         return groups[std::size_t(placement.group)];
     }

@@ -27,6 +27,7 @@ declare -A below=(
     [surface]="scene core kernels"
     [compare]="io scene core kernels"
     [cpu]="surface field scene core kernels"
+    [vulkan]="surface field scene core kernels"
     [reference]="cpu surface field scene core kernels"
     [render]="cpu surface field scene core kernels"
 )

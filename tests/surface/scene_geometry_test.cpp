@@ -58,6 +58,20 @@ TEST(SceneGeometry, AppliesWhatCannotBeUndone) {
     }
 }
 
+TEST(SceneGeometry, BoundsAreTheTracers) {
+    TestScene s;
+    EXPECT_EQ(SceneGeometry::gather(s.scene, s.pose).bounds().size(), glm::vec3(0));
+    const int shared = s.addMesh(quad());
+    s.place(shared, glm::rotate(kAside, 0.7f, {0.6f, 0.0f, 0.8f}));
+    s.place(shared, glm::scale(kAside, {-2, 1, 3}));
+    for (const bool withWorld : {false, true}) {
+        if (withWorld) s.add(quad(), glm::translate(glm::mat4(1.0f), {0, -7, 0}));
+        const Bounds ours = SceneGeometry::gather(s.scene, s.pose).bounds(), tracers = s.trace()->bounds();
+        expectNear(ours.lower, tracers.lower, 1e-5f);
+        expectNear(ours.upper, tracers.upper, 1e-5f);
+    }
+}
+
 TEST(SceneGeometry, KeepsApartWhatAnimationsMove) {
     Scene scene = hierarchy();
     scene.animations = {slide(1)};
