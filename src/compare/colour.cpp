@@ -4,7 +4,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "io/srgb.h"
+#include "kernels/colour.h"
 
 namespace probegi::colour {
 
@@ -44,11 +44,11 @@ float labCurveInverse(float f) {
 }  // namespace
 
 glm::vec3 decodeSrgb(glm::vec3 v) {
-    return {io::decodeSrgb(v.x), io::decodeSrgb(v.y), io::decodeSrgb(v.z)};
+    return {kernels::decodeSrgb(v.x), kernels::decodeSrgb(v.y), kernels::decodeSrgb(v.z)};
 }
 
 glm::vec3 encodeSrgb(glm::vec3 v) {
-    return {io::encodeSrgb(v.x), io::encodeSrgb(v.y), io::encodeSrgb(v.z)};
+    return {kernels::encodeSrgb(v.x), kernels::encodeSrgb(v.y), kernels::encodeSrgb(v.z)};
 }
 
 glm::vec3 xyzFromRgb(glm::vec3 linear) {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <new>
 
 #include "core/context_impl.h"
@@ -17,34 +15,7 @@ ErrorCode errorCode(RTCError error) {
     return error == RTC_ERROR_OUT_OF_MEMORY ? ErrorCode::outOfMemory : ErrorCode::invalidArgument;
 }
 
-/// Embree inverts an instance's transform; one that flattens the mesh has no inverse and is applied to it instead.
-bool invertible(const glm::mat4& m) {
-    const glm::vec3 x(m[0]), y(m[1]), z(m[2]);
-    const float volume = std::abs(glm::dot(glm::cross(x, y), z));
-    return volume > 1e-6f * glm::length(x) * glm::length(y) * glm::length(z);
-}
-
 }  // namespace
-
-void EmbreeScene::gather(const Scene& scene, const ScenePose& pose) {
-    m_materials = makeSurfaceMaterials(scene);
-    std::vector<int> uses(scene.meshes.size(), 0);
-    for (const Instance& instance : pose.instances) ++uses[std::size_t(instance.mesh)];
-    std::vector<int> groupOf(scene.meshes.size(), -1);
-    for (const Instance& instance : pose.instances) {
-        const std::size_t mesh = std::size_t(instance.mesh);
-        if (uses[mesh] == 1 || !invertible(instance.toWorld)) {
-            appendMesh(m_world, scene.meshes[mesh], instance.toWorld, m_materials);
-            continue;
-        }
-        if (groupOf[mesh] < 0) {
-            groupOf[mesh] = int(m_groups.size());
-            appendMesh(m_groups.emplace_back(), scene.meshes[mesh], glm::mat4(1.0f), m_materials);
-        }
-        if (m_groups[std::size_t(groupOf[mesh])].empty()) continue;
-        m_placements.push_back({groupOf[mesh], instance.toWorld, normalMatrix(instance.toWorld)});
-    }
-}
 
 void EmbreeScene::attachMesh(RTCScene scene, const SurfaceMesh& mesh, int geometry) {
     if (mesh.empty()) return;
@@ -54,7 +25,7 @@ void EmbreeScene::attachMesh(RTCScene scene, const SurfaceMesh& mesh, int geomet
     rtcSetSharedGeometryBuffer(handle.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
                                sizeof(SurfaceTriangle), mesh.triangles.size());
     if (geometry == SurfaceGroup::kMasked) {
-        m_filters.push_back(std::make_unique<EmbreeFilterData>(EmbreeFilterData{&mesh, m_materials.data()}));
+        m_filters.push_back(std::make_unique<EmbreeFilterData>(EmbreeFilterData{&mesh, m_geometry.materials.data()}));
         rtcSetGeometryUserData(handle.get(), m_filters.back().get());
         rtcSetGeometryIntersectFilterFunction(handle.get(), rejectTransparent);
         rtcSetGeometryOccludedFilterFunction(handle.get(), rejectTransparent);
@@ -76,15 +47,16 @@ EmbreeSceneHandle EmbreeScene::makeScene(const SurfaceGroup& group) {
 }
 
 void EmbreeScene::build() {
-    for (const SurfaceGroup& group : m_groups) {
+    for (const SurfaceGroup& group : m_geometry.groups) {
         m_groupScenes.push_back(makeScene(group));
         rtcCommitScene(m_groupScenes.back().get());
     }
-    m_top = makeScene(m_world);
-    for (std::size_t i = 0; i < m_placements.size(); ++i) {
+    m_top = makeScene(m_geometry.world);
+    for (std::size_t i = 0; i < m_geometry.placements.size(); ++i) {
+        const Placement& placement = m_geometry.placements[i];
         const EmbreeGeometry instance(rtcNewGeometry(m_device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
-        rtcSetGeometryInstancedScene(instance.get(), m_groupScenes[std::size_t(m_placements[i].group)].get());
-        rtcSetGeometryTransform(instance.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &m_placements[i].toWorld[0][0]);
+        rtcSetGeometryInstancedScene(instance.get(), m_groupScenes[std::size_t(placement.group)].get());
+        rtcSetGeometryTransform(instance.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &placement.toWorld[0][0]);
         rtcCommitGeometry(instance.get());
         rtcAttachGeometryByID(m_top.get(), instance.get(), kFirstInstance + unsigned(i));
     }
@@ -98,7 +70,7 @@ void EmbreeScene::build() {
 Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(const Context& context, const Scene& scene,
                                                          const ScenePose& pose) try {
     std::unique_ptr<EmbreeScene> result(new EmbreeScene);
-    result->gather(scene, pose);
+    result->m_geometry = SceneGeometry::gather(scene, pose);
     result->m_device.reset(rtcNewDevice(nullptr));
     if (!result->m_device)
         return fail(errorCode(rtcGetDeviceError(nullptr)),

@@ -3,8 +3,8 @@
 
 #include "cpu/embree_packets.h"
 #include "cpu/embree_scene.h"
-#include "cpu/surface_shader.h"
 #include "probegi/tracer.h"
+#include "surface/surface_shader.h"
 
 namespace probegi {
 
@@ -40,10 +40,11 @@ private:
     EmbreePackets packets() const { return {m_scene->handle(), m_originSpread, m_scene->instanced()}; }
 
     Surface surface(const Ray& ray, const Hit& hit) const {
+        const SceneGeometry& geometry = m_scene->geometry();
         if (hit.instance < 0)
-            return shadeHit(m_scene->world().mesh(hit.geometry), m_scene->materials(), hit, ray.direction);
-        const EmbreeScene::Placement& placement = m_scene->placement(hit.instance);
-        return shadeHit(m_scene->group(placement).mesh(hit.geometry), m_scene->materials(), hit, ray.direction,
+            return shadeHit(geometry.world.mesh(hit.geometry), geometry.materials, hit, ray.direction);
+        const Placement& placement = m_scene->placement(hit.instance);
+        return shadeHit(geometry.group(placement).mesh(hit.geometry), geometry.materials, hit, ray.direction,
                         placement.toWorld, placement.normalToWorld);
     }
 

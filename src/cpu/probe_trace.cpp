@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "cpu/lighting.h"
 #include "kernels/bounce.h"
+#include "kernels/language.h"
 #include "scene/sky.h"
+#include "surface/lighting.h"
 
 namespace probegi {
 

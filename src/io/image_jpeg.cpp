@@ -7,7 +7,7 @@
 
 #include "io/image_codec.h"
 #include "io/refused.h"
-#include "io/srgb.h"
+#include "kernels/colour.h"
 
 namespace probegi::io {
 
@@ -68,7 +68,7 @@ HdrImage decodeJpeg(Bytes bytes) {
     std::vector<std::uint8_t> codes(3 * std::size_t(reader.width()) * std::size_t(reader.height()));
     reader.decode(codes, TJPF_RGB);
     std::array<float, 256> linear{};
-    for (std::size_t code = 0; code < linear.size(); ++code) linear[code] = decodeSrgb(float(code) / 255.0f);
+    for (std::size_t code = 0; code < linear.size(); ++code) linear[code] = kernels::decodeSrgb(float(code) / 255.0f);
     HdrImage image(reader.width(), reader.height());
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         image.pixels[i] = {linear[codes[3 * i]], linear[codes[3 * i + 1]], linear[codes[3 * i + 2]]};

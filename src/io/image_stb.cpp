@@ -6,8 +6,8 @@
 
 #include "io/image_codec.h"
 #include "io/refused.h"
-#include "io/srgb.h"
 #include "io/stb.h"
+#include "kernels/colour.h"
 
 namespace probegi::io {
 
@@ -102,7 +102,7 @@ HdrImage decodePng(Bytes bytes) {
         stbi_load_16_from_memory(bytes.data(), int(bytes.size()), &size.width, &size.height, &channels, 3));
     if (!pixels) refuseDamaged("PNG");
     std::vector<float> linear(65536);
-    for (std::size_t code = 0; code < linear.size(); ++code) linear[code] = decodeSrgb(float(code) / 65535.0f);
+    for (std::size_t code = 0; code < linear.size(); ++code) linear[code] = kernels::decodeSrgb(float(code) / 65535.0f);
     HdrImage image(size.width, size.height);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         image.pixels[i] = {linear[pixels[3 * i]], linear[pixels[3 * i + 1]], linear[pixels[3 * i + 2]]};

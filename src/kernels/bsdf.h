@@ -3,6 +3,7 @@
 #ifndef PROBEGI_KERNELS_BSDF_H
 #define PROBEGI_KERNELS_BSDF_H
 
+#include "kernels/colour.h"
 #include "kernels/language.h"
 #include "kernels/sampling.h"
 
@@ -83,10 +84,9 @@ KERNEL_FN vec3 evalBsdf(Bsdf b, vec3 wo, vec3 wi) {
 // How often sampling picks the cosine lobe: by the energy that each lobe is likely to send, seen from wo.
 KERNEL_FN float diffuseProbability(Bsdf b, vec3 wo) {
     if (b.specular <= 0.0f) return 1.0f;
-    const vec3 weights = vec3(0.2126f, 0.7152f, 0.0722f);
     const vec3 f = fresnelSchlick(b.f0, wo.z);
-    const float diffuse = dot(weights, b.diffuse * (vec3(1.0f) - f));
-    const float p = diffuse > 0.0f ? clamp(diffuse / (diffuse + dot(weights, f)), 0.1f, 0.9f) : 0.0f;
+    const float diffuse = luminance(b.diffuse * (vec3(1.0f) - f));
+    const float p = diffuse > 0.0f ? clamp(diffuse / (diffuse + luminance(f)), 0.1f, 0.9f) : 0.0f;
     return max(p, b.minDiffuse);
 }
 

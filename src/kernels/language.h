@@ -15,6 +15,7 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -32,6 +33,7 @@ using uint = std::uint32_t;
 using glm::ivec2;
 using glm::ivec3;
 using glm::mat3;
+using glm::mat4x3;
 using glm::uvec2;
 using glm::uvec3;
 using glm::vec2;
@@ -58,8 +60,12 @@ using glm::sqrt;
 using std::acos;
 using std::atan;
 using std::cos;
+using std::exp;
 using std::sin;
 
+inline float atan(float y, float x) {
+    return std::atan2(y, x);
+}
 inline uint floatBitsToUint(float x) {
     return std::bit_cast<uint>(x);
 }

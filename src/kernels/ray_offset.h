@@ -24,6 +24,11 @@ KERNEL_FN vec3 offsetOrigin(vec3 position, vec3 normal, float sceneMagnitude) {
     return position + normal * rayOffset(position, sceneMagnitude);
 }
 
+// Where the shadow ray to a light at this distance ends: a little before it, so that a lamp in a ceiling shines.
+KERNEL_FN float shadowRayEnd(float lightDistance) {
+    return lightDistance * (1.0f - 1e-4f);
+}
+
 KERNELS_END
 
 #endif

@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "kernels/colour.h"
 #include "kernels/sampling.h"
-#include "reference/luminance.h"
 
 namespace probegi {
 
@@ -18,7 +18,8 @@ float meanLuminance(const TextureImage& image) {
     double sum = 0;
     const std::size_t texels = image.rgba.size() / 4;
     for (std::size_t i = 0; i < texels; ++i)
-        sum += luminance({linear[image.rgba[4 * i]], linear[image.rgba[4 * i + 1]], linear[image.rgba[4 * i + 2]]});
+        sum += kernels::luminance(
+            {linear[image.rgba[4 * i]], linear[image.rgba[4 * i + 1]], linear[image.rgba[4 * i + 2]]});
     return texels > 0 ? float(sum / double(texels)) : 0.0f;
 }
 
@@ -46,7 +47,7 @@ void Emitters::collectMaterials(const Scene& scene) {
         const int image = material.emissiveTexture.image;
         EmissiveMaterial& m = m_materials.emplace_back();
         m.emission = material.emission;
-        m.luminance = luminance(material.emission);
+        m.luminance = kernels::luminance(material.emission);
         m.uniform = image < 0 && material.alphaMode == AlphaMode::opaque;
         m.doubleSided = material.doubleSided;
         if (image >= 0 && m.luminance > 0) m.luminance *= meanLuminance(scene.images[std::size_t(image)]);

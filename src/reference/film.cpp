@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "reference/luminance.h"
+#include "kernels/colour.h"
 
 namespace probegi {
 
@@ -43,8 +43,8 @@ double Film::relativeError() const noexcept {
     double error = 0, level = 0;
     for (const Pixel& pixel : m_pixels) {
         if (pixel.color.count < 2) return std::numeric_limits<double>::infinity();
-        error += double(luminance(glm::vec3(pixel.color.standardError())));
-        level += double(luminance(glm::vec3(pixel.color.mean)));
+        error += double(kernels::luminance(glm::vec3(pixel.color.standardError())));
+        level += double(kernels::luminance(glm::vec3(pixel.color.mean)));
     }
     return error > 0 ? error / level : 0;
 }

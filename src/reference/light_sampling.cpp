@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "cpu/lighting.h"
-#include "reference/luminance.h"
+#include "kernels/colour.h"
 #include "reference/path_batch.h"
+#include "surface/lighting.h"
 
 namespace probegi {
 
@@ -35,7 +35,7 @@ void PathBatch::samplePunctualLights(Path& path, const Vertex& vertex) {
         const float cosine = glm::dot(vertex.frame[2], s.toLight);
         if (cosine <= 0 || glm::dot(vertex.geometricNormal, s.toLight) <= 0) return 0.0f;
         const glm::vec3 local = kernels::toLocal(vertex.frame, s.toLight);
-        return luminance(s.irradianceAtNormal * kernels::evalBsdf(vertex.bsdf, vertex.toPrevious, local));
+        return kernels::luminance(s.irradianceAtNormal * kernels::evalBsdf(vertex.bsdf, vertex.toPrevious, local));
     };
     float total = 0;
     for (const PlacedLight& light : lights) total += contribution(light);

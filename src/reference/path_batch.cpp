@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "cpu/lighting.h"
+#include "surface/lighting.h"
 
 namespace probegi {
 

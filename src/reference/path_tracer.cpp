@@ -9,10 +9,10 @@
 
 #include "core/parallel.h"
 #include "core/progress.h"
-#include "cpu/lighting.h"
 #include "reference/film.h"
 #include "reference/irradiance_estimate.h"
 #include "reference/path_batch.h"
+#include "surface/lighting.h"
 
 namespace probegi {
 

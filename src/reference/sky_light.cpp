@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/colour.h"
 #include "kernels/sampling.h"
-#include "reference/luminance.h"
 #include "scene/sky.h"
 
 namespace probegi {
@@ -27,7 +27,7 @@ double meanTexelLuminance(const HdrImage& image, int x, int y) {
         for (int dx = -1; dx <= 1; ++dx) {
             const glm::vec3& texel =
                 image.at((x + dx + image.width) % image.width, std::clamp(y + dy, 0, image.height - 1));
-            sum += kShare[dx + 1] * kShare[dy + 1] * std::max(0.0, double(luminance(texel)));
+            sum += kShare[dx + 1] * kShare[dy + 1] * std::max(0.0, double(kernels::luminance(texel)));
         }
     return sum;
 }
@@ -68,7 +68,7 @@ glm::vec3 SkyLight::sample(glm::vec3 normal, Random& random) const noexcept {
     const int width = m_sky.image.width, height = m_sky.image.height;
     const std::size_t texel = m_table.sample(random.nextDouble());
     const int x = int(texel % std::size_t(width)), y = int(texel / std::size_t(width));
-    // Uniform over the texel's solid angle; as in scene/sky.h, u = 1/2 is -Z and grows towards +X.
+    // Uniform over the texel's solid angle; as in kernels/sky.h, u = 1/2 is -Z and grows towards +X.
     const double top = rowCosine(y, height), bottom = rowCosine(y + 1, height);
     const double cosine = top + (bottom - top) * random.nextDouble();
     const double phi = ((x + random.nextDouble()) / width - 0.5) * kTau;
@@ -79,9 +79,8 @@ glm::vec3 SkyLight::sample(glm::vec3 normal, Random& random) const noexcept {
 float SkyLight::pdf(glm::vec3 normal, glm::vec3 direction) const noexcept {
     if (m_table.empty()) return kernels::pdfCosineHemisphere(glm::dot(normal, direction));
     const int width = m_sky.image.width, height = m_sky.image.height;
-    const float u = std::atan2(direction.x, -direction.z) / float(kTau) + 0.5f;
-    const float v = std::acos(std::clamp(direction.y, -1.0f, 1.0f)) / float(0.5 * kTau);
-    const int x = std::min(int(u * float(width)), width - 1), y = std::min(int(v * float(height)), height - 1);
+    const glm::vec2 uv = kernels::skyUv(direction);
+    const int x = std::min(int(uv.x * float(width)), width - 1), y = std::min(int(uv.y * float(height)), height - 1);
     return m_pdf[std::size_t(y) * width + x];
 }
 

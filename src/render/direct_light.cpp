@@ -2,8 +2,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "cpu/lighting.h"
 #include "kernels/bsdf.h"
+#include "surface/lighting.h"
 
 namespace probegi {
 

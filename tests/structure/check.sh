@@ -24,10 +24,12 @@ declare -A below=(
     [scene]="core kernels"
     [io]="scene core kernels"
     [field]="scene core kernels"
+    [surface]="scene core kernels"
     [compare]="io scene core kernels"
-    [cpu]="field scene core kernels"
-    [reference]="cpu field scene core kernels"
-    [render]="cpu field scene core kernels"
+    [cpu]="surface field scene core kernels"
+    [vulkan]="surface field scene core kernels"
+    [reference]="cpu surface field scene core kernels"
+    [render]="cpu surface field scene core kernels"
 )
 
 # path:line of each quoted include whose path begins with a folder name, as "file folder".

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
+#include "kernels/colour.h"
 #include "scene/builtin/noise.h"
 
 namespace probegi::builtin {
@@ -13,10 +14,6 @@ namespace probegi::builtin {
 namespace {
 
 constexpr float kTau = glm::two_pi<float>();
-
-float toSrgb(float v) {
-    return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;
-}
 
 std::uint8_t toByte(float v) {
     return std::uint8_t(std::lround(255 * std::clamp(v, 0.0f, 1.0f)));
@@ -26,7 +23,7 @@ std::uint8_t toByte(float v) {
 std::uint8_t encode(float linear) {
     static const auto table = [] {
         std::array<std::uint8_t, 4097> t{};
-        for (std::size_t i = 0; i < t.size(); ++i) t[i] = toByte(toSrgb(float(i) / 4096));
+        for (std::size_t i = 0; i < t.size(); ++i) t[i] = toByte(kernels::encodeSrgb(float(i) / 4096));
         return t;
     }();
     // Nothing made by code is whiter than fresh plaster: brighter walls would bounce light almost for ever.

@@ -9,8 +9,10 @@ void giveScalars(INOUT(Lane) lane, float x, float unit) {
     give(lane, sin(x), 2e-5f);
     give(lane, cos(x), 2e-5f);
     give(lane, acos(2.0f * unit - 1.0f), 5e-4f);
+    give(lane, atan(unit + 0.1f, x), 5e-6f);
     give(lane, sqrt(unit), 1e-6f);
     give(lane, inversesqrt(unit + 0.01f), 1e-5f);
+    give(lane, exp(x), 1e-5f);
     give(lane, exp2(x), 1e-5f);
     give(lane, log2(unit + 0.01f), 1e-5f);
     give(lane, pow(unit + 1e-6f, 0.2f), 1e-5f);

@@ -9,4 +9,5 @@ void evaluate(INOUT(Lane) lane) {
     const float magnitude = takeBetween(lane, 1.0f, 2000.0f);
     give(lane, rayOffset(position, magnitude), 1e-8f);
     giveVec3(lane, offsetOrigin(position, normal, magnitude), 3e-7f);
+    give(lane, shadowRayEnd(takeBetween(lane, 0.0f, 50.0f)), 1e-6f);
 }

@@ -1,4 +1,4 @@
-#include "cpu/surface_material.h"
+#include "surface/surface_material.h"
 
 namespace probegi {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "cpu/texture_sampler.h"
+#include "surface/texture_sampler.h"
 
 namespace probegi {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "cpu/surface_material.h"
+#include "surface/surface_material.h"
 
 namespace probegi {
 

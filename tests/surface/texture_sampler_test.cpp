@@ -1,5 +1,5 @@
 // Texture look-ups against values computed by hand.
-#include "cpu/texture_sampler.h"
+#include "surface/texture_sampler.h"
 
 #include <cmath>
 #include <limits>

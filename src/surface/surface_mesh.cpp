@@ -1,4 +1,4 @@
-#include "cpu/surface_mesh.h"
+#include "surface/surface_mesh.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cpu/surface_mesh.h"
 #include "probegi/tracer.h"
+#include "surface/surface_mesh.h"
 
 namespace probegi {
 

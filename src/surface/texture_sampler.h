@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "probegi/scene.h"
 
@@ -36,16 +37,15 @@ private:
     /// The texels that a look-up blends: byte offsets of the four corners and their weights.
     struct Footprint {
         std::uint32_t offset[4];
-        float weight[4];
+        glm::vec4 weights;
     };
     Footprint footprint(glm::vec2 uv) const noexcept;
 
     const std::uint8_t* m_texels = nullptr;
     std::int32_t m_width = 0;
     std::int32_t m_height = 0;
-    glm::vec2 m_rowU{1, 0};  ///< the uv transform's upper two rows, u' = dot(m_rowU, uv) + m_shift.x
-    glm::vec2 m_rowV{0, 1};
-    glm::vec2 m_shift{0, 0};
+    glm::vec3 m_rowU{1, 0, 0};  ///< the uv transform's upper two rows
+    glm::vec3 m_rowV{0, 1, 0};
     Wrap m_wrapU = Wrap::repeat;
     Wrap m_wrapV = Wrap::repeat;
     bool m_nearest = false;

@@ -26,11 +26,11 @@ inline float sceneMagnitude(const Bounds& bounds) {
 }
 
 /// The ray whose occlusion tells whether a surface point sees the light. `geometricNormal` is on the lit side;
-/// `magnitude` is sceneMagnitude(tracer.bounds()). Ends a little before the light, so that a lamp in a ceiling shines.
+/// `magnitude` is sceneMagnitude(tracer.bounds()).
 inline Ray shadowRay(glm::vec3 position, glm::vec3 geometricNormal, const kernels::LightSample& sample,
                      float magnitude) {
     return {kernels::offsetOrigin(position, geometricNormal, magnitude), 0.0f, sample.toLight,
-            sample.distance * (1.0f - 1e-4f)};
+            kernels::shadowRayEnd(sample.distance)};
 }
 
 }  // namespace probegi

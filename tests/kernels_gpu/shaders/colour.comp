@@ -1,0 +1,14 @@
+#include "lane.h"
+
+#include "kernels/colour.h"
+
+void evaluate(INOUT(Lane) lane) {
+    const vec3 color = takeVector(lane, 0.0f, 20.0f);
+    const float value = takeUnit(lane);
+    const float dark = takeBetween(lane, 0.0f, 0.05f);
+    give(lane, luminance(color), 1e-6f);
+    give(lane, encodeSrgb(value), 2e-6f);
+    give(lane, decodeSrgb(value), 2e-6f);
+    give(lane, encodeSrgb(dark), 2e-6f);
+    give(lane, decodeSrgb(dark), 2e-6f);
+}

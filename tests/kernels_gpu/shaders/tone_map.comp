@@ -1,0 +1,16 @@
+#include "lane.h"
+
+#include "kernels/tone_map.h"
+
+void evaluate(INOUT(Lane) lane) {
+    const vec3 color = takeVector(lane, -1.0f, 3.0f);
+    const float exposure = takeBetween(lane, 0.1f, 3.0f);
+    const float huge = takeBetween(lane, 0.0f, 2e7f);
+    give(lane, filmicShoulder(takeBetween(lane, 0.0f, 3.0f)), 1e-6f);
+    giveVec3(lane, filmicCurve(abs(color)), 2e-6f);
+    give(lane, displayable(color.x), 0.0f);
+    give(lane, displayable(huge), 0.0f);
+    giveVec3(lane, toneMap(color, exposure, false), 4e-6f);
+    giveVec3(lane, toneMap(color, exposure, true), 4e-6f);
+    giveVec3(lane, toneMap(vec3(huge, 0.0f, 0.0f), exposure, true), 4e-6f);
+}

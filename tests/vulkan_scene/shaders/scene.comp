@@ -1,0 +1,81 @@
+// Asks scene.glsl about hits, directions and points, one a lane.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+
+#include "kernels/gpu_scene.h"
+#include "vulkan/shaders/types.glsl"
+
+layout(local_size_x = 64) in;
+
+struct Question {
+    vec3 direction;
+    vec2 barycentric;
+    int primitive;
+    int geometry;
+    int instance;
+};
+
+struct Answer {
+    vec3 position;
+    vec3 geometricNormal;
+    vec3 shadingNormal;
+    vec3 albedo;
+    vec3 emission;
+    float metallic;
+    float roughness;
+    int material;
+    int backface;
+    int passes;
+    vec3 sky;
+    vec3 toLight;
+    vec3 irradianceAtNormal;
+    vec3 shadowOrigin;
+    float shadowEnd;
+};
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Questions {
+    Question at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Answers {
+    Answer at[];
+};
+layout(push_constant, scalar) uniform Push {
+    uvec2 scene;
+    uvec2 questions;
+    uvec2 answers;
+    uint count;
+}
+u_push;
+
+#define PROBEGI_SCENE SceneBlock(u_push.scene).scene
+#include "vulkan/shaders/scene.glsl"
+
+void main() {
+    const uint index = gl_GlobalInvocationID.x;
+    if (index >= u_push.count) return;
+    const Question q = Questions(u_push.questions).at[index];
+    const Surface s = surfaceAt(Ray(vec3(0.0), 0.0, q.direction, 1e30),
+                                Hit(1.0, q.primitive, q.geometry, q.instance, q.barycentric));
+    const LightSample light = lightSampleAt(int(index) % PROBEGI_SCENE.lightCount, s.position);
+    const Ray shadow = shadowRay(s.position, s.geometricNormal, light);
+    Answer a;
+    a.position = s.position;
+    a.geometricNormal = s.geometricNormal;
+    a.shadingNormal = s.shadingNormal;
+    a.albedo = s.albedo;
+    a.emission = s.emission;
+    a.metallic = s.metallic;
+    a.roughness = s.roughness;
+    a.material = s.material;
+    a.backface = int(s.backface);
+    a.passes = int(alphaPasses(q.instance, q.geometry, q.primitive, q.barycentric));
+    a.sky = skyRadianceAt(q.direction);
+    a.toLight = light.toLight;
+    a.irradianceAtNormal = light.irradianceAtNormal;
+    a.shadowOrigin = shadow.origin;
+    a.shadowEnd = shadow.far;
+    Answers(u_push.answers).at[index] = a;
+}
