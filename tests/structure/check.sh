@@ -24,6 +24,7 @@ declare -A below=(
     [scene]="core kernels"
     [io]="scene core kernels"
     [field]="scene core kernels"
+    [bvh]="scene core kernels"
     [compare]="io scene core kernels"
     [cpu]="field scene core kernels"
     [reference]="cpu field scene core kernels"
