@@ -1,6 +1,7 @@
 // What makes one text both GLSL 4.60 and C++20. Every kernel header includes this first and keeps to the common subset:
 // free functions, `f` on literals, no swizzles, no default arguments, no overloading on constness, OUT()/INOUT() for
-// results, no access to buffers. A header's text stands between KERNELS_BEGIN and KERNELS_END and is guarded by macros
+// results, no access to buffers. PRECISE before a variable's type forbids the compiler to fuse what goes into it (C++
+// fuses only for processors with FMA, where -ffp-contract=off forbids it). A header's text stands between KERNELS_BEGIN and KERNELS_END and is guarded by macros
 // (GLSL has no `#pragma once`).
 #ifndef PROBEGI_KERNELS_LANGUAGE_H
 #define PROBEGI_KERNELS_LANGUAGE_H
@@ -24,6 +25,7 @@
 #define KERNELS_END }
 #define KERNEL_FN inline
 #define KERNEL_CONST inline constexpr
+#define PRECISE
 #define OUT(T) T&
 #define INOUT(T) T&
 
@@ -72,6 +74,15 @@ inline uint floatBitsToUint(float x) {
 inline float uintBitsToFloat(uint x) {
     return std::bit_cast<float>(x);
 }
+inline int bitCount(uint x) {
+    return std::popcount(x);
+}
+inline int findLSB(uint x) {
+    return x == 0u ? -1 : std::countr_zero(x);
+}
+inline int findMSB(uint x) {
+    return 31 - std::countl_zero(x);
+}
 
 }  // namespace probegi::kernels
 
@@ -81,6 +92,7 @@ inline float uintBitsToFloat(uint x) {
 #define KERNELS_END
 #define KERNEL_FN
 #define KERNEL_CONST const
+#define PRECISE precise
 #define OUT(T) out T
 #define INOUT(T) inout T
 

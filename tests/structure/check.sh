@@ -25,9 +25,10 @@ declare -A below=(
     [io]="scene core kernels"
     [field]="scene core kernels"
     [surface]="scene core kernels"
+    [bvh]="scene core kernels"
     [compare]="io scene core kernels"
     [cpu]="surface field scene core kernels"
-    [vulkan]="surface field scene core kernels"
+    [vulkan]="bvh surface field scene core kernels"
     [reference]="cpu surface field scene core kernels"
     [render]="cpu surface field scene core kernels"
 )
