@@ -1,0 +1,97 @@
+# Sourced by setup.sh: Vulkan for machines without a GPU, so that every test runs everywhere.
+#
+# The tests want two software devices: one with ray query (Mesa 25.0's lavapipe) and one without (Mesa 22.3's). Debian 12
+# has 22.3 itself and 25.0 in its backports: the newer one is installed, the older one is unpacked into build/mesa-22.3.
+
+wanted_mesa=25.0
+old_mesa=22.3
+old_mesa_folder=build/mesa-$old_mesa
+
+# Whether a Vulkan device answers that is not software.
+gpu_answers() {
+    local devices
+    devices=$(timeout 60 vulkaninfo --summary 2>/dev/null || true)
+    grep -qE 'deviceType *= *PHYSICAL_DEVICE_TYPE_(DISCRETE|INTEGRATED|VIRTUAL)_GPU' <<<"$devices"
+}
+
+is_debian_12() { (. /etc/os-release && [[ $ID == debian && ${VERSION_CODENAME:-} == bookworm ]]); }
+
+installed_mesa() { dpkg-query -W -f='${Version}' mesa-vulkan-drivers 2>/dev/null || true; }
+
+# The newest version of Mesa, at least 25.0, that apt knows of, or nothing.
+offered_mesa() {
+    local version
+    version=$(apt-cache madison mesa-vulkan-drivers | awk '{print $3; exit}')
+    dpkg --compare-versions "${version:-0}" ge "$wanted_mesa" && echo "$version" || true
+}
+
+# Debian 12's backports from the mirror, and with the key, that the system's own sources name.
+add_backports() {
+    local mirror source key
+    need_root "adding Debian 12's backports"
+    IFS='|' read -r mirror source < <(apt-get indextargets --format '$(CODENAME)/$(ORIGIN)/$(COMPONENT)|$(REPO_URI)|$(SOURCESENTRY)' \
+        'Created-By: Packages' | sed -n 's,^bookworm/Debian/main|,,p' | head -n 1) || true
+    [[ -n ${mirror:-} ]] || fail "software Vulkan with ray query comes from Debian 12's backports, but apt's sources name no Debian 12 mirror to take them from."
+    key=$(grep -ioPm 1 '^[^#]*signed-by[:=]\s*\K/[^]\s]+' "${source%:*}" || true)
+    printf '%s\n' "Types: deb" "URIs: $mirror" "Suites: bookworm-backports" "Components: main" ${key:+"Signed-By: $key"} |
+        "${as_root[@]}" tee /etc/apt/sources.list.d/probegi-backports.sources >/dev/null
+    apt_updated=
+    apt_update
+}
+
+setup_newer_mesa() {
+    local version
+    version=$(installed_mesa)
+    ! dpkg --compare-versions "${version:-0}" ge "$wanted_mesa" || return 0
+    echo "No GPU answers: installing software Vulkan with ray query, Mesa $wanted_mesa, from Debian 12's backports (/etc/apt/sources.list.d/probegi-backports.sources)"
+    apt_update
+    [[ -n $(offered_mesa) ]] || add_backports
+    [[ -n $(offered_mesa) ]] || fail "Debian 12's backports offer no Mesa $wanted_mesa, which the tests need as software Vulkan with ray query."
+    apt install -y --no-install-recommends -t bookworm-backports mesa-vulkan-drivers ||
+        fail "apt-get could not install mesa-vulkan-drivers from Debian 12's backports; see its message."
+    local extension devices
+    devices=$(timeout 60 vulkaninfo 2>/dev/null || true)
+    for extension in ray_query acceleration_structure ray_tracing_pipeline; do
+        grep -q "VK_KHR_$extension " <<<"$devices" ||
+            fail "Mesa $(installed_mesa) was installed, but no Vulkan device offers VK_KHR_$extension."
+    done
+}
+
+old_driver() { compgen -G "$old_mesa_folder/usr/lib/*/libvulkan_lvp.so" >/dev/null && ls "$old_mesa_folder"/usr/lib/*/libvulkan_lvp.so; }
+
+# The driver without ray query, beside the system: unpacked, not installed.
+setup_older_mesa() {
+    local driver version package dependencies
+    driver=$(old_driver || true)
+    if [[ -n $driver ]] && ! ldd "$driver" | grep -q 'not found'; then return 0; fi
+    find_old_mesa() { apt-cache madison mesa-vulkan-drivers | awk -v old="$old_mesa" 'index($3, old) == 1 {print $3; exit}'; }
+    version=$(find_old_mesa)
+    if [[ -z $version ]]; then
+        apt_update
+        version=$(find_old_mesa)
+    fi
+    [[ -n $version ]] || fail "apt offers no Mesa $old_mesa, which the tests use as the Vulkan device without ray query."
+    echo "Unpacking Mesa $version, software Vulkan without ray query, into $old_mesa_folder"
+    rm -rf "$old_mesa_folder"
+    mkdir -p "$old_mesa_folder"
+    # As the current user: the folder is not for apt's own user to write to.
+    (cd "$old_mesa_folder" && apt-get -q -o APT::Sandbox::User="$(id -un)" download "mesa-vulkan-drivers=$version") >"$apt_log" 2>&1 ||
+        { tail -n 30 "$apt_log" >&2 && fail "apt-get could not download Mesa $version."; }
+    package=$(ls "$old_mesa_folder"/*.deb)
+    mapfile -t dependencies < <(dpkg-deb -f "$package" Depends | tr ',' '\n' | grep -oE '^ *(lib|zlib)[^ :|]+' | tr -d ' ')
+    install_packages "${dependencies[@]}"
+    dpkg-deb -x "$package" "$old_mesa_folder"
+    rm "$package"
+    driver=$(old_driver) || fail "Mesa $version holds no software Vulkan for this processor."
+    ! ldd "$driver" | grep 'not found' || fail "Mesa $version's driver lacks the libraries above."
+}
+
+setup_software_vulkan() {
+    if gpu_answers; then return; fi
+    if is_debian_12; then
+        setup_newer_mesa
+        setup_older_mesa
+    else
+        install_packages mesa-vulkan-drivers
+    fi
+}
