@@ -91,6 +91,7 @@ struct OpenDesc {
     bool rayQuery = true;     ///< enable ray query where the device has it
     bool validation = false;  ///< Khronos validation layer with synchronisation validation; messages go to the log
     std::filesystem::path cacheFolder{};  ///< as AdoptDesc::cacheFolder
+    PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  ///< null: that of the system's loader
 };
 
 /// A device and what the library keeps for it: functions, pipelines, memory. Cheap to copy (shared handle). Calls on
@@ -290,6 +291,10 @@ Result<std::unique_ptr<Tracer>> makeTracer(const Context& context, const Device&
 /// everything stays on the GPU, with another the rays are traced and shaded by the CPU and uploaded.
 /// Errors: as ProbeVolume::create.
 Result<Field> makeField(const Context& context, const Device& device, const FieldDesc& desc);
+
+/// GPU time of each pass of the field's last update and of its last batch of queries. Empty for a field of another
+/// backend, or where the device has no timestamps.
+std::vector<PassTime> lastPassTimes(const Field& field);
 
 /// As probegi::renderPicture, on the GPU: primary rays, direct light with shadow rays, query, resolve. `tracer` must be
 /// one of makeTracer() and `field` (may be null) one of makeField(), both on this device.

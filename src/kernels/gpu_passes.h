@@ -3,9 +3,32 @@
 #ifndef PROBEGI_KERNELS_GPU_PASSES_H
 #define PROBEGI_KERNELS_GPU_PASSES_H
 
-#include "kernels/language.h"
+#include "kernels/gpu_scene.h"
 
 KERNELS_BEGIN
+
+// What the library's own BVH lies at, and the roots of its two levels (kernels/bvh_traverse.h).
+struct BvhAddresses {
+    uvec2 nodes;      // BvhNode[]
+    uvec2 triangles;  // BvhTriangle[]
+    uvec2 instances;  // BvhInstance[]
+    uint worldRoot;
+    uint instancesRoot;
+};
+
+// The uniform buffer of a scene. Lights and sky of `scene` are left open: they come with each pass.
+struct SceneConstants {
+    SceneAddresses scene;
+    BvhAddresses bvh;
+};
+
+// Punctual lights and sky, in a buffer of their own.
+struct LightingBlock {
+    uvec2 lights;     // GpuLight[lightCount]
+    uvec2 skyPixels;  // vec3[]
+    GpuSky sky;
+    int lightCount;
+};
 
 // One entry of the sparse visibility weights: what ray counts for a texel, and how much.
 struct GpuRayWeight {
@@ -49,7 +72,7 @@ struct TracePush {
     uvec2 directions;  // vec3[rays]
     uvec2 hits;        // GpuHit[probe][ray]
     uvec2 rayData;     // RayDatum[probe][ray]
-    uvec2 lighting;    // GpuLighting
+    uvec2 lighting;    // LightingBlock
     int rays;
     int probes;
     int bounces;  // 1: the probes hold light of an earlier update
@@ -62,19 +85,33 @@ struct QueryPush {
     uint count;
 };
 
-// Closest hits of given rays, occlusion, surfaces (trace_rays.comp, occlusion.comp, surfaces.comp).
+// Closest hits of given rays, occlusion, surfaces (trace_rays.comp, trace_occlusion.comp, surfaces.comp).
 struct RaysPush {
     uvec2 rays;     // Ray[count]
-    uvec2 hits;     // GpuHit[count]
+    uvec2 hits;     // Hit[count]
     uvec2 results;  // occlusion: uint[count]; surfaces: GpuSurface[count]
     uint count;
 };
 
-// A picture, a band of rows at a time (primary.comp, direct_light.comp, indirect_light.comp, resolve.comp).
+// probegi::Surface without its gaps.
+struct GpuSurface {
+    vec3 position;
+    vec3 geometricNormal;
+    vec3 shadingNormal;
+    vec3 albedo;
+    vec3 emission;
+    float metallic;
+    float roughness;
+    int material;
+    int backface;
+};
+
+// A picture, a band of rows at a time (picture_primary.comp, picture_direct.comp, picture_query.comp,
+// picture_resolve.comp).
 struct PicturePush {
-    uvec2 samples;   // GpuSample[]
+    uvec2 samples;   // GpuSample[sampleCount]
     uvec2 layers;    // vec3[layer][pixel of the band]
-    uvec2 lighting;  // GpuLighting
+    uvec2 lighting;  // LightingBlock
     vec3 cameraOrigin;
     int width;  // pixels
     vec3 corner;
@@ -83,10 +120,28 @@ struct PicturePush {
     int rows;  // of the band
     vec3 pixelDown;
     int samplesPerAxis;
-    int flags;  // kPictureDiffuseOnly, kPictureField
+    uint sampleCount;  // of the band
+    int flags;         // kPictureDiffuseOnly
 };
 KERNEL_CONST int kPictureDiffuseOnly = 1;
-KERNEL_CONST int kPictureField = 2;
+
+// What a primary ray shows, between the passes of a picture.
+struct GpuSample {
+    vec3 position;
+    int kind;        // kSampleSky, kSampleSurface, kSampleBackface
+    vec3 direction;  // of the ray, unit
+    float distance;  // metres; 0 for the sky
+    vec3 geometricNormal;
+    float metallic;
+    vec3 shadingNormal;
+    float roughness;
+    vec3 albedo;
+    vec3 direct;    // radiance: emission and punctual lights, or the sky's
+    vec3 indirect;  // E from the field, W m^-2
+};
+KERNEL_CONST int kSampleSky = 0;
+KERNEL_CONST int kSampleSurface = 1;
+KERNEL_CONST int kSampleBackface = 2;
 
 // Linear values to 8-bit sRGB (tone_map.comp).
 struct ToneMapPush {
@@ -106,9 +161,10 @@ KERNELS_END
 
 #ifdef __cplusplus
 namespace probegi::kernels {
+static_assert(offsetof(SceneConstants, bvh) == 124 && sizeof(SceneConstants) == 156 && sizeof(LightingBlock) == 40);
 static_assert(sizeof(WeightsPush) == 56 && sizeof(BlendPush) == 68 && sizeof(TracePush) == 44);
-static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 28 && sizeof(PicturePush) == 92);
-static_assert(sizeof(ToneMapPush) == 28);
+static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 28 && sizeof(PicturePush) == 96);
+static_assert(sizeof(ToneMapPush) == 28 && sizeof(GpuSurface) == 76 && sizeof(GpuSample) == 100);
 }  // namespace probegi::kernels
 #endif
 

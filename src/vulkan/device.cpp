@@ -11,6 +11,7 @@ Device::Impl::~Impl() {
         if (!saved) warn(saved.error().message);
         pipelines.reset();
     }
+    submitter.reset();
     if (owned) return;
     // What an engine lent goes back alive.
     if (*device) device.release();

@@ -6,6 +6,7 @@
 #include "probegi/vulkan.h"
 #include "vulkan/pipelines.h"
 #include "vulkan/requirements.h"
+#include "vulkan/submitter.h"
 
 namespace probegi::vulkan {
 
@@ -43,6 +44,7 @@ struct Device::Impl {
     std::uint32_t timestampBits = 0;
     Allocator allocator;
     mutable std::atomic<int> validationMessages{0};
+    mutable std::optional<Submitter> submitter;      // of a device of the library's own
     mutable std::optional<PipelineStore> pipelines;  // compiles on demand
 };
 

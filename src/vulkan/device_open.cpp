@@ -160,7 +160,7 @@ Result<std::vector<DeviceInfo>> listDevices() {
 }
 
 Result<Device> Device::open(const Context& context, const OpenDesc& desc) {
-    const PFN_vkGetInstanceProcAddr loader = systemLoader();
+    const PFN_vkGetInstanceProcAddr loader = desc.getInstanceProcAddr ? desc.getInstanceProcAddr : systemLoader();
     if (!loader) return fail(ErrorCode::unsupported, kNoLoader);
     return guarded("opening a device", [&] {
         auto impl = std::make_shared<Impl>(context, loader);
@@ -183,6 +183,7 @@ Result<Device> Device::open(const Context& context, const OpenDesc& desc) {
         features.rayQuery &= desc.rayQuery;
         impl->device = makeDevice(impl->physical, impl->family, features.canRayQuery());
         impl->queue = impl->device.getQueue(impl->family, 0);
+        impl->submitter.emplace(impl->device, impl->queue, impl->family);
         impl->finish(features, desc.cacheFolder);
         return Device(std::move(impl));
     });

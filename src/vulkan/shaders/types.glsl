@@ -12,14 +12,14 @@ struct Ray {
 
 // The closest surface along a Ray. `primitive < 0`: nothing was hit.
 struct Hit {
-    float distance;    // metres along the ray; kMissDistance: nothing
+    float distance;    // metres along the ray; kNoHitDistance: nothing
     int primitive;     // triangle of the mesh
     int geometry;      // kGeometryOpaque or kGeometryMasked
     int instance;      // placement, as in GpuInstance's array; -1: the world
     vec2 barycentric;  // weights of the second and third corner
 };
 
-const float kMissDistance = 1e30;
+const float kNoHitDistance = 1e30;
 const int kGeometryOpaque = 0;
 const int kGeometryMasked = 1;
 

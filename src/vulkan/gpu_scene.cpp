@@ -1,0 +1,161 @@
+#include <map>
+
+#include "surface/lighting.h"
+#include "vulkan/errors.h"
+#include "vulkan/gpu_scene_impl.h"
+
+namespace probegi::vulkan {
+
+namespace {
+
+TracerKind chooseTracer(const Device& device, TracerKind wanted) {
+    if (wanted == TracerKind::rayQuery && !device.rayQuery())
+        throw Failure(ErrorCode::unsupported, "ray query was asked for, but the device '" + device.info().name +
+                                                  "' does not have it or it is not enabled; use the BVH tracer");
+    if (wanted != TracerKind::automatic) return wanted;
+    return device.rayQuery() ? TracerKind::rayQuery : TracerKind::bvh;
+}
+
+// Where a pose puts each node's instance.
+std::map<int, glm::mat4> transformsByNode(const ScenePose& pose) {
+    std::map<int, glm::mat4> transforms;
+    for (const Instance& instance : pose.instances) transforms[instance.node] = instance.toWorld;
+    return transforms;
+}
+
+}  // namespace
+
+GpuScene::Impl::Impl(const Context& context, const Device& d, const Scene& scene, const ScenePose& pose,
+                     const GpuSceneDesc& desc)
+    : device(d), bounds(pose.bounds) {
+    const TracerKind kind = chooseTracer(device, desc.tracer);
+    const SceneGeometry geometry =
+        SceneGeometry::gather(scene, pose, desc.movable ? animatedInstances(scene) : InstancePredicate());
+    placements = geometry.placements;
+    data = packScene(geometry, scene);
+    upload();
+    tracer = kind == TracerKind::rayQuery ? makeRayQuerySceneTracer(device, geometry, data, vertices.address())
+                                          : makeBvhSceneTracer(context, device, geometry, staging);
+    staging.fill(device.impl());
+    constantsBuffer = Buffer(device.impl(), "scene constants", sizeof(kernels::SceneConstants),
+                             vk::BufferUsageFlagBits::eUniformBuffer | vk::BufferUsageFlagBits::eTransferDst);
+    writeSet();
+}
+
+void GpuScene::Impl::upload() {
+    const Device::Impl& on = device.impl();
+    vk::BufferUsageFlags vertexUsage = kAddressed;
+    if (on.rayQuery) vertexUsage |= vk::BufferUsageFlagBits::eAccelerationStructureBuildInputReadOnlyKHR;
+    vertices = staging.add(on, "vertices", data.vertices, vertexUsage);
+    triangles = staging.add(on, "triangles", data.triangles);
+    uv1 = staging.add(on, "second uvs", data.uv1);
+    tangents = staging.add(on, "tangents", data.tangents);
+    meshes = staging.add(on, "meshes", data.meshes);
+    instances = staging.add(on, "instances", data.instances);
+    materials = staging.add(on, "materials", data.materials);
+    textures = staging.add(on, "textures", data.textures);
+    texels = staging.add(on, "texels", data.texels);
+    srgbTable = staging.add(on, "sRGB table", data.srgbTable);
+}
+
+void GpuScene::Impl::writeSet() {
+    const Device::Impl& on = device.impl();
+    std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBuffer, 1}};
+    if (on.rayQuery) sizes.push_back({vk::DescriptorType::eAccelerationStructureKHR, 1});
+    pool = vk::raii::DescriptorPool(
+        on.device, vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes));
+    sets = vk::raii::DescriptorSets(on.device, vk::DescriptorSetAllocateInfo(*pool, *on.pipelines->layout().scene));
+    const vk::DescriptorBufferInfo info(constantsBuffer.handle(), 0, VK_WHOLE_SIZE);
+    on.device.updateDescriptorSets(
+        vk::WriteDescriptorSet(set(), 0, 0, 1, vk::DescriptorType::eUniformBuffer, nullptr, &info), {});
+    const vk::AccelerationStructureKHR top = tracer->topLevel();
+    if (!top) return;
+    const vk::WriteDescriptorSetAccelerationStructureKHR structures(top);
+    vk::WriteDescriptorSet write(set(), 1, 0, 1, vk::DescriptorType::eAccelerationStructureKHR);
+    write.pNext = &structures;
+    on.device.updateDescriptorSets(write, {});
+}
+
+kernels::SceneConstants GpuScene::Impl::constants() const {
+    kernels::SceneConstants c{};
+    c.scene.vertices = addressWords(vertices.address());
+    c.scene.triangles = addressWords(triangles.address());
+    c.scene.uv1 = addressWords(uv1.address());
+    c.scene.tangents = addressWords(tangents.address());
+    c.scene.meshes = addressWords(meshes.address());
+    c.scene.instances = addressWords(instances.address());
+    c.scene.materials = addressWords(materials.address());
+    c.scene.textures = addressWords(textures.address());
+    c.scene.texels = addressWords(texels.address());
+    c.scene.srgbTable = addressWords(srgbTable.address());
+    c.scene.magnitude = sceneMagnitude(bounds);
+    c.bvh = tracer->addresses();
+    return c;
+}
+
+GpuScene::GpuScene(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
+GpuScene::GpuScene(GpuScene&&) noexcept = default;
+GpuScene& GpuScene::operator=(GpuScene&&) noexcept = default;
+GpuScene::~GpuScene() = default;
+
+Result<GpuScene> GpuScene::create(const Context& context, const Device& device, const Scene& scene,
+                                  const ScenePose& pose, const GpuSceneDesc& desc) {
+    return guarded("uploading the scene",
+                   [&] { return GpuScene(std::make_unique<Impl>(context, device, scene, pose, desc)); });
+}
+
+void GpuScene::recordUpload(VkCommandBuffer commands) {
+    const Recorder recorder(m_impl->device.impl(), commands);
+    m_impl->staging.record(recorder);
+    recorder.write(m_impl->constantsBuffer, bytesOf(m_impl->constants()));
+    m_impl->tracer->recordBuild(recorder);
+    recorder.orderAll();
+}
+
+void GpuScene::releaseStaging() noexcept {
+    m_impl->staging.release();
+    m_impl->tracer->releaseStaging();
+    m_impl->data = {};
+}
+
+Result<void> GpuScene::recordPose(VkCommandBuffer commands, const ScenePose& pose) {
+    const std::map<int, glm::mat4> transforms = transformsByNode(pose);
+    std::vector<Placement> placements = m_impl->placements;
+    for (Placement& placement : placements) {
+        const auto found = transforms.find(placement.node);
+        if (found == transforms.end())
+            return fail(ErrorCode::invalidArgument, "the pose is not one of the scene that was uploaded");
+        placement.toWorld = found->second;
+        placement.normalToWorld = normalMatrix(found->second);
+    }
+    return guarded("moving instances", [&] {
+        std::vector<kernels::GpuInstance> instances;
+        for (const Placement& placement : placements) instances.push_back(packInstance(placement));
+        m_impl->placements = std::move(placements);
+        m_impl->bounds = pose.bounds;
+        const Recorder recorder(m_impl->device.impl(), commands);
+        recorder.orderAll();
+        recorder.write(m_impl->instances, std::as_bytes(std::span(instances)));
+        recorder.write(m_impl->constantsBuffer, bytesOf(m_impl->constants()));
+        m_impl->tracer->recordPlacements(recorder, m_impl->placements);
+        recorder.orderAll();
+    });
+}
+
+TracerKind GpuScene::tracer() const noexcept {
+    return m_impl->tracer->kind();
+}
+Bounds GpuScene::bounds() const noexcept {
+    return m_impl->bounds;
+}
+
+std::size_t GpuScene::bytes() const noexcept {
+    const Impl& m = *m_impl;
+    std::size_t sum = m.constantsBuffer.bytes() + m.tracer->bytes();
+    for (const Buffer* buffer : {&m.vertices, &m.triangles, &m.uv1, &m.tangents, &m.meshes, &m.instances, &m.materials,
+                                 &m.textures, &m.texels, &m.srgbTable})
+        sum += buffer->bytes();
+    return sum;
+}
+
+}  // namespace probegi::vulkan

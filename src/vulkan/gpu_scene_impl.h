@@ -1,0 +1,31 @@
+#pragma once
+
+#include "vulkan/scene_tracer.h"
+
+namespace probegi::vulkan {
+
+struct GpuScene::Impl {
+    Impl(const Context& context, const Device& device, const Scene& scene, const ScenePose& pose,
+         const GpuSceneDesc& desc);
+
+    vk::DescriptorSet set() const noexcept { return *sets.front(); }
+    std::string shaderSuffix() const { return tracer->shaderSuffix(); }
+    kernels::SceneConstants constants() const;
+
+    Device device;
+    std::vector<Placement> placements;
+    Bounds bounds;
+    Buffer vertices, triangles, uv1, tangents, meshes, instances, materials, textures, texels, srgbTable;
+    Buffer constantsBuffer;
+    std::unique_ptr<SceneTracer> tracer;
+    vk::raii::DescriptorPool pool{nullptr};
+    vk::raii::DescriptorSets sets{nullptr};
+    Staging staging;
+    SceneData data;  // what staging points to; emptied with it
+
+private:
+    void upload();
+    void writeSet();
+};
+
+}  // namespace probegi::vulkan

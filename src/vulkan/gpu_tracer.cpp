@@ -1,0 +1,129 @@
+#include "vulkan/gpu_tracer.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "kernels/gpu_passes.h"
+#include "vulkan/gpu_scene_impl.h"
+
+namespace probegi::vulkan {
+
+namespace {
+
+static_assert(sizeof(Ray) == 32 && offsetof(Ray, direction) == 16, "shaders/types.glsl");
+static_assert(sizeof(Hit) == 24 && offsetof(Hit, barycentric) == 16, "shaders/types.glsl");
+
+constexpr std::size_t kRaysPerPiece = std::size_t(1) << 20;
+
+GpuScene uploaded(const Context& context, const Device& device, const Scene& scene, const ScenePose& pose,
+                  const GpuSceneDesc& desc) {
+    GpuScene result = orThrow(GpuScene::create(context, device, scene, pose, desc));
+    submitAndWait(device, [&](const Recorder& recorder) { result.recordUpload(recorder.commands()); });
+    result.releaseStaging();
+    return result;
+}
+
+Surface surfaceOf(const kernels::GpuSurface& s) {
+    Surface surface;
+    surface.position = s.position;
+    surface.geometricNormal = s.geometricNormal;
+    surface.shadingNormal = s.shadingNormal;
+    surface.albedo = s.albedo;
+    surface.emission = s.emission;
+    surface.metallic = s.metallic;
+    surface.roughness = s.roughness;
+    surface.material = s.material;
+    surface.backface = s.backface != 0;
+    return surface;
+}
+
+// Calls piece(first, count) over 0..count. Errors go to the log: the interface has no place for them, and what follows
+// a lost device fails with a Result.
+template <class Piece>
+void inPieces(const Device& device, std::size_t count, const Piece& piece) {
+    const auto done = guarded("tracing rays", [&] {
+        for (std::size_t first = 0; first < count; first += kRaysPerPiece)
+            piece(first, std::min(kRaysPerPiece, count - first));
+    });
+    if (!done) device.impl().warn(done.error().message);
+}
+
+}  // namespace
+
+GpuTracer::GpuTracer(const Context& context, const Device& device, const Scene& scene, const ScenePose& pose,
+                     const GpuSceneDesc& desc)
+    : m_device(device), m_scene(uploaded(context, device, scene, pose, desc)), m_exchange(device) {}
+
+void GpuTracer::closestHits(std::span<const Ray> rays, std::span<Hit> hits) const {
+    assert(rays.size() == hits.size());
+    std::fill(hits.begin(), hits.end(), Hit());
+    const std::lock_guard lock(m_mutex);
+    inPieces(m_device, rays.size(), [&](std::size_t first, std::size_t count) {
+        m_exchange.begin(count * sizeof(Ray), count * sizeof(Hit));
+        kernels::RaysPush push{.rays = addressWords(m_exchange.add(rays.subspan(first, count))),
+                               .hits = addressWords(m_exchange.out()),
+                               .results = {},
+                               .count = std::uint32_t(count)};
+        m_exchange.run(
+            [&](const Recorder& recorder) {
+                recorder.bindScene(m_scene.impl().set());
+                recorder.push(push);
+                recorder.dispatchOver("trace_rays" + m_scene.impl().shaderSuffix(), count, 64);
+            },
+            count * sizeof(Hit));
+        std::copy_n(m_exchange.results<Hit>().begin(), count, hits.begin() + std::ptrdiff_t(first));
+    });
+}
+
+void GpuTracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
+    assert(rays.size() == blocked.size());
+    std::fill(blocked.begin(), blocked.end(), std::uint8_t(0));
+    const std::lock_guard lock(m_mutex);
+    inPieces(m_device, rays.size(), [&](std::size_t first, std::size_t count) {
+        m_exchange.begin(count * sizeof(Ray), count * sizeof(std::uint32_t));
+        kernels::RaysPush push{.rays = addressWords(m_exchange.add(rays.subspan(first, count))),
+                               .hits = {},
+                               .results = addressWords(m_exchange.out()),
+                               .count = std::uint32_t(count)};
+        m_exchange.run(
+            [&](const Recorder& recorder) {
+                recorder.bindScene(m_scene.impl().set());
+                recorder.push(push);
+                recorder.dispatchOver("trace_occlusion" + m_scene.impl().shaderSuffix(), count, 64);
+            },
+            count * sizeof(std::uint32_t));
+        const auto results = m_exchange.results<std::uint32_t>();
+        for (std::size_t i = 0; i < count; ++i) blocked[first + i] = std::uint8_t(results[i]);
+    });
+}
+
+void GpuTracer::surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const {
+    assert(rays.size() == hits.size() && rays.size() == out.size());
+    const std::lock_guard lock(m_mutex);
+    inPieces(m_device, rays.size(), [&](std::size_t first, std::size_t count) {
+        m_exchange.begin(count * (sizeof(Ray) + sizeof(Hit)), count * sizeof(kernels::GpuSurface));
+        kernels::RaysPush push{.rays = addressWords(m_exchange.add(rays.subspan(first, count))),
+                               .hits = addressWords(m_exchange.add(hits.subspan(first, count))),
+                               .results = addressWords(m_exchange.out()),
+                               .count = std::uint32_t(count)};
+        m_exchange.run(
+            [&](const Recorder& recorder) {
+                recorder.bindScene(m_scene.impl().set());
+                recorder.push(push);
+                recorder.dispatchOver("surfaces", count, 64);
+            },
+            count * sizeof(kernels::GpuSurface));
+        const auto results = m_exchange.results<kernels::GpuSurface>();
+        for (std::size_t i = 0; i < count; ++i)
+            if (hits[first + i].valid()) out[first + i] = surfaceOf(results[i]);
+    });
+}
+
+Result<std::unique_ptr<Tracer>> makeTracer(const Context& context, const Device& device, const Scene& scene,
+                                           const ScenePose& pose, const GpuSceneDesc& desc) {
+    return guarded("uploading the scene", [&] {
+        return std::unique_ptr<Tracer>(std::make_unique<GpuTracer>(context, device, scene, pose, desc));
+    });
+}
+
+}  // namespace probegi::vulkan

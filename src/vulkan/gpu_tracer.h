@@ -1,0 +1,32 @@
+#pragma once
+
+#include <mutex>
+
+#include "probegi/vulkan.h"
+#include "vulkan/exchange.h"
+
+namespace probegi::vulkan {
+
+/// A scene in GPU memory as a Tracer. Batches are cut into pieces, so that memory for them stays bounded.
+class GpuTracer final : public Tracer {
+public:
+    /// Uploads and waits. Throws.
+    GpuTracer(const Context& context, const Device& device, const Scene& scene, const ScenePose& pose,
+              const GpuSceneDesc& desc);
+
+    void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override;
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override;
+    void surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const override;
+    Bounds bounds() const override { return m_scene.bounds(); }
+
+    const Device& device() const noexcept { return m_device; }
+    const GpuScene& scene() const noexcept { return m_scene; }
+
+private:
+    Device m_device;
+    GpuScene m_scene;
+    mutable std::mutex m_mutex;
+    mutable Exchange m_exchange;
+};
+
+}  // namespace probegi::vulkan

@@ -1,0 +1,55 @@
+// Primary rays of a band of a picture: what each sample shows, its own emission, or the sky.
+// variants: bvh=TRACER_BVH ray_query=TRACER_RAY_QUERY
+#include "picture.glsl"
+#include "scene_set.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+    PicturePush push;
+};
+
+// Samples lie pixel by pixel, rows of the pixel's grid one after the other.
+Ray primaryRay(uint index) {
+    const int side = push.samplesPerAxis;
+    const int perPixel = side * side;
+    const int pixel = int(index) / perPixel;
+    const int within = int(index) % perPixel;
+    const float x = float(pixel % push.width) + (float(within % side) + 0.5) / float(side);
+    const float y = float(push.firstRow + pixel / push.width) + (float(within / side) + 0.5) / float(side);
+    const vec3 direction = normalize(push.corner + x * push.pixelRight + y * push.pixelDown);
+    return Ray(push.cameraOrigin, 0.0, direction, kNoHitDistance);
+}
+
+void main() {
+    const uint index = globalIndex();
+    if (index >= push.sampleCount) return;
+    useLighting(push.lighting);
+    const Ray ray = primaryRay(index);
+    const Hit hit = closestHit(ray);
+    GpuSample s;
+    s.direction = ray.direction;
+    s.indirect = vec3(0.0);
+    if (hit.primitive < 0) {
+        s.kind = kSampleSky;
+        s.direct = skyRadianceAt(ray.direction);
+        s.position = vec3(0.0);
+        s.geometricNormal = vec3(0.0);
+        s.shadingNormal = vec3(0.0);
+        s.albedo = vec3(0.0);
+        s.metallic = 0.0;
+        s.roughness = 0.0;
+        s.distance = 0.0;
+    } else {
+        const Surface surface = surfaceAt(ray, hit);
+        s.kind = surface.backface ? kSampleBackface : kSampleSurface;
+        s.direct = surface.emission;
+        s.position = surface.position;
+        s.geometricNormal = surface.geometricNormal;
+        s.shadingNormal = surface.shadingNormal;
+        s.albedo = surface.albedo;
+        s.metallic = surface.metallic;
+        s.roughness = surface.roughness;
+        s.distance = hit.distance;
+    }
+    Samples(push.samples).at[index] = s;
+}

@@ -1,0 +1,17 @@
+// The field at the samples of a picture: E in W m^-2.
+#include "picture.glsl"
+#include "volume.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+    PicturePush push;
+};
+
+void main() {
+    const uint index = globalIndex();
+    if (index >= push.sampleCount) return;
+    const GpuSample s = Samples(push.samples).at[index];
+    // The back of a wall receives nothing.
+    if (s.kind != kSampleSurface) return;
+    Samples(push.samples).at[index].indirect = probegiIrradiance(s.position, s.shadingNormal, -s.direction);
+}

@@ -1,0 +1,15 @@
+// Rays, hits and surfaces in buffers, as C++ lays them out (probegi::Ray, probegi::Hit, GpuSurface).
+#ifndef PROBEGI_RAYS_GLSL
+#define PROBEGI_RAYS_GLSL
+
+#include "common.glsl"
+#include "types.glsl"
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Rays {
+    Ray at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Hits {
+    Hit at[];
+};
+
+#endif

@@ -1,0 +1,41 @@
+// Set 1 of the library's own passes: a scene, and the tracer that the variant of the shader names.
+#ifndef PROBEGI_SCENE_SET_GLSL
+#define PROBEGI_SCENE_SET_GLSL
+
+#include "common.glsl"
+
+#include "kernels/gpu_passes.h"
+
+layout(set = 1, binding = 0, scalar) uniform SceneUniforms {
+    SceneConstants sceneConstants;
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightingBuffer {
+    LightingBlock block;
+};
+
+// The scene with the pass's lights and sky: useLighting() comes first in every main().
+SceneAddresses litScene;
+#define PROBEGI_SCENE litScene
+#include "scene.glsl"
+
+void useLighting(uvec2 address) {
+    const LightingBlock lighting = LightingBuffer(address).block;
+    litScene = sceneConstants.scene;
+    litScene.lights = lighting.lights;
+    litScene.skyPixels = lighting.skyPixels;
+    litScene.sky = lighting.sky;
+    litScene.lightCount = lighting.lightCount;
+}
+
+// For passes that need no light.
+void useSceneOnly() {
+    litScene = sceneConstants.scene;
+}
+
+#if defined(TRACER_RAY_QUERY)
+#include "tracer_ray_query.glsl"
+#elif defined(TRACER_BVH)
+#include "tracer_bvh.glsl"
+#endif
+
+#endif

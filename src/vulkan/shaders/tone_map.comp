@@ -1,0 +1,18 @@
+// Linear light to 8-bit sRGB.
+#include "common.glsl"
+
+#include "kernels/gpu_passes.h"
+#include "kernels/tone_map.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+    ToneMapPush push;
+};
+
+void main() {
+    const uint index = globalIndex();
+    if (index >= push.count) return;
+    const vec3 display = toneMap(Vec3s(push.pixels).at[index], push.exposure, push.filmic != 0);
+    const uvec3 code = uvec3(display * 255.0 + 0.5);
+    Uints(push.display).at[index] = code.r | (code.g << 8) | (code.b << 16) | 0xff000000u;
+}

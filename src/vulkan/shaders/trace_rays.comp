@@ -1,0 +1,16 @@
+// Closest hits of given rays.
+// variants: bvh=TRACER_BVH ray_query=TRACER_RAY_QUERY
+#include "rays.glsl"
+#include "scene_set.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+    RaysPush push;
+};
+
+void main() {
+    const uint index = globalIndex();
+    if (index >= push.count) return;
+    useSceneOnly();
+    Hits(push.hits).at[index] = closestHit(Rays(push.rays).at[index]);
+}
