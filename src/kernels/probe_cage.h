@@ -30,12 +30,12 @@ KERNEL_FN vec3 cageAlpha(vec3 gridPosition, vec3 base) {
     return clamp(gridPosition - base, vec3(0.0f), vec3(1.0f));
 }
 
-// First and last probe of the block around a cage, an axis.
+// First and last probe of the block around a point's cage.
 KERNEL_FN ivec3 searchLowest(vec3 gridPosition, ivec3 counts) {
-    return clamp(ivec3(floor(gridPosition)) - ivec3(kSearch - 1), ivec3(0), counts - 1);
+    return clamp(ivec3(cageBase(gridPosition, counts)) - ivec3(kSearch - 1), ivec3(0), counts - 1);
 }
 KERNEL_FN ivec3 searchHighest(vec3 gridPosition, ivec3 counts) {
-    return clamp(ivec3(floor(gridPosition)) + ivec3(kSearch), ivec3(0), counts - 1);
+    return clamp(ivec3(cageBase(gridPosition, counts)) + ivec3(kSearch), ivec3(0), counts - 1);
 }
 
 KERNEL_FN int probeNumber(ivec3 at, ivec3 counts) {

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <glm/geometric.hpp>
+
+#include "support/backends.h"
+
+namespace probegi::test {
+
+/// What a test of tests/backend needs to run on any backend.
+class EveryBackend : public testing::TestWithParam<Backend> {
+protected:
+    Field makeField(const FieldDesc& desc) const { return made(GetParam().makeField(context, desc)); }
+    std::unique_ptr<Tracer> makeTracer(const Scene& scene, const ScenePose& pose) const {
+        return made(GetParam().makeTracer(context, scene, pose));
+    }
+    /// Answers of a field, all at once.
+    static std::vector<glm::vec3> ask(const Field& field, std::span<const FieldQuery> queries) {
+        std::vector<glm::vec3> answers(queries.size());
+        const auto asked = field.irradiance(queries, answers);
+        EXPECT_TRUE(asked) << asked.error().message;
+        return answers;
+    }
+    template <class T>
+    static T made(Result<T> result) {
+        if (!result) throw std::runtime_error(result.error().message);  // fails the test
+        return std::move(*result);
+    }
+
+    const Context context = *Context::create({.threads = 2});
+};
+
+/// Once for each fixture that derives from EveryBackend.
+#define PROBEGI_ON_EVERY_BACKEND(Fixture) \
+    INSTANTIATE_TEST_SUITE_P(All, Fixture, testing::ValuesIn(backends()), nameOf<Backend>)
+
+/// A grid of 6 x 4 x 5 probes with cells that are no cubes.
+FieldDesc smallDesc();
+/// The same datum for all rays of all probes.
+std::vector<RayDatum> constantData(const FieldDesc& desc, glm::vec3 radiance, float distance);
+/// Radiance over two decades, distances up to 3 m, every seventh ray on a backface.
+std::vector<RayDatum> randomData(const FieldDesc& desc, std::uint32_t seed);
+/// Points in smallDesc()'s grid and up to two metres around it, all normals, viewers on the normal's side and not.
+std::vector<FieldQuery> randomQueries(int count, std::uint32_t seed = 4);
+/// Probes' directions of texel centres: x, y of a map of `size` texels.
+glm::vec3 texelDirection(int texel, int size);
+
+/// The stored value of an irradiance texel: what Field::probeIrradiance() says, encoded.
+float storedIrradiance(const Field& field, int probe, int texel, int channel);
+
+/// How the texels of two fields differ, in steps of the storage: half floats of (mean radiance)^(1/5), and 16-bit
+/// fractions of the farthest distance.
+struct AtlasDifference {
+    double worstIrradiance = 0;
+    double worstVisibility = 0;
+    double worstBackfaceShare = 0;   ///< absolute
+    double differingIrradiance = 0;  ///< share of the texels' channels more than half a step apart
+    double differingVisibility = 0;
+};
+AtlasDifference compareAtlases(const Field& a, const Field& b);
+
+/// "Same rays in, same atlases out". Storage is dithered: where the means differ in their last bits, the dither takes
+/// some of them to neighbouring steps.
+void expectSameAtlases(const Field& field, const Field& reference);
+
+}  // namespace probegi::test

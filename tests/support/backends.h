@@ -1,0 +1,60 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <span>
+#include <vector>
+
+#include "probegi/probegi.h"
+#include "support/tracers.h"
+
+namespace probegi::test {
+
+/// Where passes run. A new backend is one line in backends(), and all tests of tests/backend run on it.
+struct Backend {
+    const char* name;
+    Result<Field> (*makeField)(const Context&, const FieldDesc&);
+    Result<std::unique_ptr<Tracer>> (*makeTracer)(const Context&, const Scene&, const ScenePose&);
+    Result<RenderedPicture> (*renderPicture)(const Context&, const Tracer&, const Lighting&, const Field*,
+                                             const PictureDesc&);
+    Result<std::vector<std::uint8_t>> (*toneMap)(const HdrImage&, const ToneMap&);
+
+    friend std::ostream& operator<<(std::ostream& out, const Backend& backend) { return out << backend.name; }
+};
+
+/// What vulkan::toneMapImage does, by toDisplay().
+inline Result<std::vector<std::uint8_t>> toneMapOnCpu(const HdrImage& image, const ToneMap& toneMap) {
+    std::vector<std::uint8_t> rgba;
+    for (const glm::vec3& pixel : image.pixels) {
+        const glm::vec3 display = toDisplay(pixel, toneMap);
+        for (int c = 0; c < 3; ++c) rgba.push_back(std::uint8_t(display[c] * 255.0f + 0.5f));
+        rgba.push_back(255);
+    }
+    return rgba;
+}
+
+/// The reference of all others.
+inline constexpr Backend kCpu{"cpu", Field::create, makeEmbreeTracer, renderPicture, toneMapOnCpu};
+
+#ifdef PROBEGI_TEST_VULKAN
+inline const Backend kVulkan{
+    "vulkan",
+    [](const Context& context, const FieldDesc& desc) { return vulkan::makeField(context, testDevice(), desc); },
+    makeVulkanTracer<vulkan::TracerKind::automatic>,
+    [](const Context& context, const Tracer& tracer, const Lighting& lighting, const Field* field,
+       const PictureDesc& desc) { return vulkan::renderPicture(context, testDevice(), tracer, lighting, field, desc); },
+    [](const HdrImage& image, const ToneMap& toneMap) { return vulkan::toneMapImage(testDevice(), image, toneMap); }};
+#endif
+
+inline std::span<const Backend> backends() {
+    static const Backend all[] = {
+        kCpu,
+#ifdef PROBEGI_TEST_VULKAN
+        kVulkan,
+#endif
+    };
+    return all;
+}
+
+}  // namespace probegi::test

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <span>
+
+#include "probegi/tracer.h"
+#ifdef PROBEGI_TEST_VULKAN
+#include "probegi/vulkan.h"
+#include "support/vulkan_device.h"
+#endif
+
+namespace probegi::test {
+
+/// One way to make a Tracer. A new tracer is one line in tracerMakers(), and all tests of tracers run on it.
+struct TracerMaker {
+    const char* name;
+    Result<std::unique_ptr<Tracer>> (*make)(const Context&, const Scene&, const ScenePose&);
+    bool (*possible)();           ///< whether this machine can run it; where not, make() must refuse
+    bool tellsInstances = false;  ///< Hit::instance is the number of a placement, or -1 where meshes were merged
+
+    friend std::ostream& operator<<(std::ostream& out, const TracerMaker& maker) { return out << maker.name; }
+};
+
+#ifdef PROBEGI_TEST_VULKAN
+template <vulkan::TracerKind kind>
+Result<std::unique_ptr<Tracer>> makeVulkanTracer(const Context& context, const Scene& scene, const ScenePose& pose) {
+    return vulkan::makeTracer(context, testDevice(), scene, pose, {.tracer = kind});
+}
+#endif
+
+inline std::span<const TracerMaker> tracerMakers() {
+    static const TracerMaker makers[] = {
+        {"embree", makeEmbreeTracer, [] { return true; }, true},
+#ifdef PROBEGI_TEST_VULKAN
+        {"vulkanBvh", makeVulkanTracer<vulkan::TracerKind::bvh>, [] { return true; }},
+        {"vulkanRayQuery", makeVulkanTracer<vulkan::TracerKind::rayQuery>, [] { return testDevice().rayQuery(); }},
+#endif
+    };
+    return makers;
+}
+
+template <class Named>
+std::string nameOf(const testing::TestParamInfo<Named>& info) {
+    return info.param.name;
+}
+
+/// Fixture of tests that every tracer has to pass. On a device without what the tracer needs, the test is that it
+/// says so.
+class EveryTracer : public testing::TestWithParam<TracerMaker> {
+protected:
+    void SetUp() override {
+        if (GetParam().possible()) return;
+        const Scene empty;
+        const auto refused = GetParam().make(*Context::create(), empty, poseAt(empty));
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
+        GTEST_SKIP() << refused.error().message;
+    }
+
+    std::unique_ptr<Tracer> make(const Scene& scene, const ScenePose& pose, int threads = 1) const {
+        auto tracer = GetParam().make(*Context::create({.threads = threads}), scene, pose);
+        if (!tracer) throw std::runtime_error(tracer.error().message);  // fails the test
+        return std::move(*tracer);
+    }
+};
+
+/// Once in each folder of tests that uses EveryTracer.
+#define PROBEGI_ON_EVERY_TRACER(Fixture) \
+    INSTANTIATE_TEST_SUITE_P(All, Fixture, testing::ValuesIn(tracerMakers()), nameOf<TracerMaker>)
+
+}  // namespace probegi::test
