@@ -6,35 +6,9 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 
 #include "kernels/gpu_scene.h"
-#include "vulkan/shaders/types.glsl"
+#include "question.h"
 
 layout(local_size_x = 64) in;
-
-struct Question {
-    vec3 direction;
-    vec2 barycentric;
-    int primitive;
-    int geometry;
-    int instance;
-};
-
-struct Answer {
-    vec3 position;
-    vec3 geometricNormal;
-    vec3 shadingNormal;
-    vec3 albedo;
-    vec3 emission;
-    float metallic;
-    float roughness;
-    int material;
-    int backface;
-    int passes;
-    vec3 sky;
-    vec3 toLight;
-    vec3 irradianceAtNormal;
-    vec3 shadowOrigin;
-    float shadowEnd;
-};
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Questions {
     Question at[];
@@ -42,13 +16,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Que
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Answers {
     Answer at[];
 };
-layout(push_constant, scalar) uniform Push {
-    uvec2 scene;
-    uvec2 questions;
-    uvec2 answers;
-    uint count;
-}
-u_push;
+layout(push_constant, scalar) uniform PushConstants {
+    Push u_push;
+};
 
 #define PROBEGI_SCENE SceneBlock(u_push.scene).scene
 #include "vulkan/shaders/scene.glsl"
