@@ -108,13 +108,13 @@ BinaryTree emptyTree(std::size_t items) {
 
 Result<BinaryTree> buildBinaryTree(const Context& context, std::span<const BuildItem> items) {
     const std::unique_ptr<RTCDeviceTy, DeviceRelease> device(rtcNewDevice(nullptr));
-    if (!device) return fail(ErrorCode::invalidArgument, "Embree could not make a device; is this processor supported?");
+    if (!device)
+        return fail(ErrorCode::invalidArgument, "Embree could not make a device; is this processor supported?");
     const std::unique_ptr<RTCBVHTy, BvhRelease> bvh(rtcNewBVH(device.get()));
     std::vector<RTCBuildPrimitive> primitives(items.size());
     for (std::size_t i = 0; i < items.size(); ++i) {
         const Bounds& box = items[i].box;
-        primitives[i] = {box.lower.x, box.lower.y, box.lower.z, 0,
-                         box.upper.x, box.upper.y, box.upper.z, unsigned(i)};
+        primitives[i] = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, unsigned(i)};
     }
     const RTCBuildArguments args = buildArguments(primitives, bvh.get());
     void* root = nullptr;

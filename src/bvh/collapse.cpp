@@ -105,7 +105,9 @@ private:
                                                        ((s & 2) != 0 ? towards.y : -towards.y) +
                                                        ((s & 4) != 0 ? towards.z : -towards.z);
         }
-        const auto at = [&](int root, int slot) { return root < 0 ? 0.0f : gain[std::size_t(root)][std::size_t(slot)]; };
+        const auto at = [&](int root, int slot) {
+            return root < 0 ? 0.0f : gain[std::size_t(root)][std::size_t(slot)];
+        };
         Slots slots;
         slots.fill(-1);
         for (int r = 0; r < roots.count; ++r) {

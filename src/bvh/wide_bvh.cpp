@@ -173,10 +173,9 @@ std::uint32_t BvhArrays::append(const InstanceBvh& bvh, std::uint32_t firstInsta
 }
 
 kernels::BvhInstance makeBvhInstance(const glm::mat4& toWorld, std::uint32_t root, int number) {
-    // In doubles: the inverse of a small or far placement loses digits.
+    // In doubles: the inverse of a small placement loses digits.
     const glm::dmat3 linear = glm::inverse(glm::dmat3(glm::dmat4(toWorld)));
-    const glm::dvec3 offset = -(linear * glm::dvec3(toWorld[3]));
-    const auto row = [&](int i) { return glm::vec4(linear[0][i], linear[1][i], linear[2][i], offset[i]); };
+    const auto row = [&](int i) { return glm::vec4(linear[0][i], linear[1][i], linear[2][i], toWorld[3][i]); };
     return {row(0), row(1), row(2), root, number, 0, 0};
 }
 

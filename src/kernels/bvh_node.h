@@ -24,8 +24,8 @@ struct BvhNode {
 };
 
 // meta (the paper's section 3.1): its low five bits say where the child's first bit stands in the word of hits, its
-// high three bits are the bits to be set there. An inner node in slot s: 1 at 24 + s. A leaf of n <= 3 triangles: n ones
-// at the number of its first triangle, counted from `leaves`, 0..23. An empty slot: 0.
+// high three bits are the bits to be set there. An inner node in slot s: 1 at 24 + s. A leaf of n <= 3 triangles: n
+// ones at the number of its first triangle, counted from `leaves`, 0..23. An empty slot: 0.
 KERNEL_CONST uint kBvhInnerMeta = 0x38u;  // (1 << 5) + 24, plus s
 KERNEL_CONST uint kBvhLeafBits = 0x00ffffffu;
 KERNEL_CONST uint kBvhLeafSize = 3u;
@@ -69,8 +69,8 @@ KERNEL_FN BvhRay makeBvhRay(vec3 origin, vec3 direction) {
     const float largest = max(size.x, max(size.y, size.z));
     BvhRay ray;
     ray.origin = origin;
-    ray.inverse = vec3(bvhInverse(direction.x, largest), bvhInverse(direction.y, largest),
-                       bvhInverse(direction.z, largest));
+    ray.inverse =
+        vec3(bvhInverse(direction.x, largest), bvhInverse(direction.y, largest), bvhInverse(direction.z, largest));
     ray.axis = size.x == largest ? 0 : (size.y == largest ? 1 : 2);
     const vec3 rotated = bvhRotate(direction, ray.axis);
     ray.shear = vec3(rotated.x / rotated.z, rotated.y / rotated.z, 1.0f / rotated.z);
@@ -84,8 +84,8 @@ KERNEL_FN BvhRay makeBvhRay(vec3 origin, vec3 direction) {
 // Each of the few roundings (a GPU's division has 2.5 units) is at most 2^-24 of them; this is 16.
 KERNEL_CONST float kBvhPadding = 9.5367432e-7f;
 
-// The bits of hits that four children, one a byte, contribute. `scale` and `enter`, `leave`: distances of a quantisation
-// step and of plane 0.
+// The bits of hits that four children, one a byte, contribute. `scale` and `enter`, `leave`: distances of a
+// quantisation step and of plane 0.
 KERNEL_FN uint bvhFourChildren(uint meta, uint octant, uvec3 nearPlanes, uvec3 farPlanes, vec3 scale, vec3 enter,
                                vec3 leave, float near, float far) {
     uint hits = 0u;

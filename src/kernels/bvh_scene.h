@@ -17,7 +17,9 @@ struct BvhTriangle {
     int unused;
 };
 
-// 64 bytes. Rows of the affine map from the world to the group's space: x' = dot(row0.xyz, x) + row0.w, and so on.
+// 64 bytes. Maps the world to the group's space: x' = dot(row0.xyz, x - origin), and so on, where the group's origin
+// stands in the world at (row0.w, row1.w, row2.w). Subtracted first, since a sum of two far points forgets how near
+// they are to each other.
 struct BvhInstance {
     vec4 row0;
     vec4 row1;
@@ -44,7 +46,7 @@ KERNEL_FN vec3 bvhInstanceVector(BvhInstance placed, vec3 v) {
 }
 
 KERNEL_FN vec3 bvhInstancePoint(BvhInstance placed, vec3 p) {
-    return bvhInstanceVector(placed, p) + vec3(placed.row0.w, placed.row1.w, placed.row2.w);
+    return bvhInstanceVector(placed, p - vec3(placed.row0.w, placed.row1.w, placed.row2.w));
 }
 
 KERNELS_END

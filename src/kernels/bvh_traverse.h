@@ -128,8 +128,7 @@ KERNEL_FN BvhHit bvhTraverse(vec3 origin, float near, vec3 direction, float far,
     return hit;
 }
 
-KERNEL_FN BvhHit bvhClosestHit(vec3 origin, float near, vec3 direction, float far, uint worldRoot,
-                               uint instancesRoot) {
+KERNEL_FN BvhHit bvhClosestHit(vec3 origin, float near, vec3 direction, float far, uint worldRoot, uint instancesRoot) {
     return bvhTraverse(origin, near, direction, far, worldRoot, instancesRoot, false);
 }
 

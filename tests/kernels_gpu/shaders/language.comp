@@ -23,6 +23,9 @@ void giveScalars(INOUT(Lane) lane, float x, float unit) {
     give(lane, mix(1.0f, 3.0f, unit), 1e-6f);
     give(lane, uintBitsToFloat(floatBitsToUint(x)), 0.0f);
     giveBits(lane, floatBitsToUint(abs(x)));
+    giveBits(lane, uint(bitCount(floatBitsToUint(x))));
+    giveBits(lane, uint(findLSB(floatBitsToUint(x))));
+    giveBits(lane, uint(findMSB(floatBitsToUint(unit))));
 }
 
 void giveVectors(INOUT(Lane) lane, vec3 a, vec3 b) {
