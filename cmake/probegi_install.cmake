@@ -14,10 +14,16 @@ find_package(tl-expected REQUIRED)
 target_link_libraries(probegi INTERFACE glm::glm tl::expected)
 target_compile_features(probegi INTERFACE cxx_std_20)
 
+# A header whose library was left out is left out as well.
+set(without "")
+if(NOT PROBEGI_VULKAN)
+    set(without PATTERN vulkan.h EXCLUDE)
+endif()
+
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/probegi)
 install(TARGETS probegi ${layers} EXPORT probegi_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS probegi_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY include/probegi DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY include/probegi DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" ${without})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/probegi)
 install(EXPORT probegi_targets NAMESPACE probegi:: DESTINATION ${package_folder})
 

@@ -56,3 +56,19 @@ function(probegi_shaders target folder)
     target_link_libraries(${target}_shaders PRIVATE probegi_options)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_shaders>)
 endfunction()
+
+# probegi_shader_include(INPUT NAME) makes one file of a shader's source and all that it includes, for the shaders of
+# engines: BUILD/include/NAME, installed as include/NAME, which needs no include path of its own.
+function(probegi_shader_include input name)
+    set(output ${PROJECT_BINARY_DIR}/include/${name})
+    cmake_path(GET name PARENT_PATH folder)
+    cmake_path(GET input PARENT_PATH beside)
+    cmake_path(GET input STEM stem)
+    file(GLOB included CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/kernels/*.h ${beside}/*.glsl)
+    add_custom_command(OUTPUT ${output}
+        COMMAND ${CMAKE_COMMAND} -DINPUT=${input} -DOUTPUT=${output} -DROOT=${PROJECT_SOURCE_DIR}/src
+            -P ${PROJECT_SOURCE_DIR}/cmake/amalgamate.cmake
+        DEPENDS ${included} ${PROJECT_SOURCE_DIR}/cmake/amalgamate.cmake COMMENT "Collecting ${name}" VERBATIM)
+    add_custom_target(probegi_shader_include_${stem} ALL DEPENDS ${output})
+    install(FILES ${output} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
+endfunction()

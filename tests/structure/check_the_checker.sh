@@ -25,13 +25,21 @@ expect_complaint() {
 expect_complaint layers src/scene/a.cpp '#include "cpu/b.h"\n'
 expect_complaint layers src/cpu/a.h '#include "render/b.h"\n'
 expect_complaint layers src/kernels/a.h '#include "probegi/field.h"\n'
+expect_complaint layers src/vulkan/a.cpp '#include "cpu/b.h"\n'
+expect_complaint layers src/vulkan/shaders/a.comp '#include "cpu/b.h"\n'
+expect_complaint layers src/cpu/a.cpp '#include "vulkan/b.h"\n'
 expect_complaint layers src/unheard_of/a.cpp 'int x;\n'
 expect_complaint layers apps/tool/a.cpp '#include "field/b.h"\n'
 expect_complaint public_headers include/probegi/a.h '#include <embree3/rtcore.h>\n'
 expect_complaint public_headers include/probegi/a.h '#include "core/b.h"\n'
 expect_complaint public_headers include/probegi/a.h 'RTCScene scene();\n'
+expect_complaint public_headers include/probegi/a.h '#include <vulkan/vulkan_core.h>\n'
+expect_complaint public_headers include/probegi/a.h 'VkDevice device();\n'
+expect_complaint public_headers include/probegi/vulkan.h '#include <vulkan/vulkan_raii.hpp>\n'
+expect_complaint public_headers include/probegi/vulkan.h 'vk::Device device();\n'
 expect_complaint examples examples/a/main.cpp '#include "core/b.h"\n'
 expect_complaint sizes src/core/a.cpp "$(printf '\\n%.0s' {1..601})"
+expect_complaint sizes src/vulkan/shaders/a.glsl "$(printf '\\n%.0s' {1..601})"
 expect_complaint assets a.bin "$(head -c 1100000 /dev/zero | tr '\0' y)"
 expect_complaint assets a.bin '\0177ELF'
 expect_complaint words src/core/a.cpp '// see /home/someone/notes\n'
