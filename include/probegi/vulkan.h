@@ -90,7 +90,7 @@ struct OpenDesc {
     std::string device{};
     bool rayQuery = true;     ///< enable ray query where the device has it
     bool validation = false;  ///< Khronos validation layer with synchronisation validation; messages go to the log
-    std::filesystem::path cacheFolder{};  ///< as AdoptDesc::cacheFolder
+    std::filesystem::path cacheFolder{};                      ///< as AdoptDesc::cacheFolder
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  ///< null: that of the system's loader
 };
 

@@ -5,9 +5,9 @@
 #include <new>
 
 #include "core/parallel.h"
-#include "cpu/probe_trace.h"
 #include "kernels/irradiance_decoding.h"
 #include "kernels/storage.h"
+#include "surface/probe_trace.h"
 
 namespace probegi {
 
@@ -70,8 +70,12 @@ Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, const Tracer& tra
     m_rayData.resize(m_layout.probes * m_layout.rays);
     TraceTimes sums;
     const FieldView last = view(frame.desc);
-    traceProbes(m_context, frame.desc.grid, frame.directions, tracer, lighting, frame.bounces ? &last : nullptr,
-                m_rayData, sums);
+    BounceQuery bounces;
+    if (frame.bounces)
+        bounces = [&](std::span<const FieldQuery> queries, std::span<glm::vec3> out) {
+            queryIrradiance(last, queries, out);
+        };
+    traceProbes(m_context, frame.desc.grid, frame.directions, tracer, lighting, bounces, m_rayData, sums);
     const double traced = millisecondsSince(start);
     blend(frame, m_rayData);
 

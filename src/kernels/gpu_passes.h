@@ -4,6 +4,7 @@
 #define PROBEGI_KERNELS_GPU_PASSES_H
 
 #include "kernels/gpu_scene.h"
+#include "kernels/pinhole.h"
 
 KERNELS_BEGIN
 
@@ -112,13 +113,10 @@ struct PicturePush {
     uvec2 samples;   // GpuSample[sampleCount]
     uvec2 layers;    // vec3[layer][pixel of the band]
     uvec2 lighting;  // LightingBlock
-    vec3 cameraOrigin;
+    PinholeCamera camera;
     int width;  // pixels
-    vec3 corner;
     int firstRow;
-    vec3 pixelRight;
     int rows;  // of the band
-    vec3 pixelDown;
     int samplesPerAxis;
     uint sampleCount;  // of the band
     int flags;         // kPictureDiffuseOnly
@@ -151,11 +149,6 @@ struct ToneMapPush {
     float exposure;
     int filmic;
 };
-
-// Low and high word of a device address.
-KERNEL_FN uvec2 gpuAddress(uint low, uint high) {
-    return uvec2(low, high);
-}
 
 KERNELS_END
 

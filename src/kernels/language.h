@@ -64,6 +64,7 @@ using std::atan;
 using std::cos;
 using std::exp;
 using std::sin;
+using std::tan;
 
 inline float atan(float y, float x) {
     return std::atan2(y, x);

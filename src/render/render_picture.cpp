@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
@@ -10,25 +9,14 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "render/tile_renderer.h"
+#include "surface/picture_desc.h"
 
 namespace probegi {
 
 namespace {
 
-constexpr int kMaxSide = 16384;
 constexpr int kTileWidth = 64;
 constexpr int kTileSamples = 2048;  // what stays in a core's second-level cache
-
-Result<void> checkDesc(const PictureDesc& desc) {
-    if (desc.width < 1 || desc.width > kMaxSide || desc.height < 1 || desc.height > kMaxSide)
-        return fail(ErrorCode::invalidArgument, fmt::format("a picture of {}x{} pixels is not possible; each side must "
-                                                            "be 1 to {}",
-                                                            desc.width, desc.height, kMaxSide));
-    if (desc.samplesPerAxis < 1 || desc.samplesPerAxis > 8)
-        return fail(ErrorCode::invalidArgument,
-                    fmt::format("samplesPerAxis is {}; it must be 1 to 8", desc.samplesPerAxis));
-    return {};
-}
 
 std::vector<Tile> makeTiles(const PictureDesc& desc) {
     const int perPixel = desc.samplesPerAxis * desc.samplesPerAxis;
@@ -38,11 +26,6 @@ std::vector<Tile> makeTiles(const PictureDesc& desc) {
         for (int x = 0; x < desc.width; x += kTileWidth)
             tiles.push_back({x, y, std::min(kTileWidth, desc.width - x), std::min(tileHeight, desc.height - y)});
     return tiles;
-}
-
-Picture makePicture(int width, int height) {
-    const HdrImage empty(width, height);
-    return {empty, empty, empty, empty, empty, empty, empty};
 }
 
 // What went wrong first on any of the threads.
@@ -64,7 +47,7 @@ private:
 Result<RenderedPicture> renderTiles(const Context& context, const Tracer& tracer, const Lighting& lighting,
                                     const Field* field, const PictureDesc& desc) {
     const auto start = std::chrono::steady_clock::now();
-    RenderedPicture rendered{makePicture(desc.width, desc.height), {}};
+    RenderedPicture rendered{emptyPicture(desc.width, desc.height), {}};
     const std::vector<Tile> tiles = makeTiles(desc);
     TileRenderer renderer(tracer, lighting, field, desc);
     Progress progress(context, "rendering", double(tiles.size()));
@@ -94,13 +77,11 @@ Result<RenderedPicture> renderTiles(const Context& context, const Tracer& tracer
 
 Result<RenderedPicture> renderPicture(const Context& context, const Tracer& tracer, const Lighting& lighting,
                                       const Field* field, const PictureDesc& desc) {
-    if (const auto checked = checkDesc(desc); !checked) return tl::unexpected(checked.error());
+    if (const auto checked = validatePictureDesc(desc); !checked) return tl::unexpected(checked.error());
     try {
         return renderTiles(context, tracer, lighting, field, desc);
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::outOfMemory, fmt::format("a picture of {}x{} pixels does not fit into memory; choose a "
-                                                        "smaller size",
-                                                        desc.width, desc.height));
+        return tl::unexpected(pictureDoesNotFit(desc));
     }
 }
 

@@ -52,7 +52,8 @@ TileRenderer::TileRenderer(const Tracer& tracer, const Lighting& lighting, const
       m_lighting(lighting),
       m_field(field),
       m_desc(desc),
-      m_camera(desc.camera, desc.width, desc.height),
+      m_camera(kernels::makePinhole(desc.camera.position, desc.camera.forward, desc.camera.up, desc.camera.yfov,
+                                    desc.width, desc.height)),
       m_sceneMagnitude(sceneMagnitude(tracer.bounds())) {}
 
 Result<void> TileRenderer::render(const Tile& tile, TileSamples& samples, Picture& picture) {
@@ -74,8 +75,9 @@ void TileRenderer::castPrimary(const Tile& tile, TileSamples& samples) const {
     for (int y = tile.y; y < tile.y + tile.height; ++y)
         for (int x = tile.x; x < tile.x + tile.width; ++x)
             for (int s = 0; s < side * side; ++s)
-                samples.rays.push_back(m_camera.ray(float(x) + (float(s % side) + 0.5f) * step,
-                                                    float(y) + (float(s / side) + 0.5f) * step));
+                samples.rays.push_back({m_camera.origin, 0.0f,
+                                        kernels::pinholeDirection(m_camera, float(x) + (float(s % side) + 0.5f) * step,
+                                                                  float(y) + (float(s / side) + 0.5f) * step)});
     samples.hits.resize(samples.rays.size());
     samples.surfaces.resize(samples.rays.size());
     m_tracer.closestHits(samples.rays, samples.hits);

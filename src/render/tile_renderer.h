@@ -3,8 +3,8 @@
 #include <atomic>
 #include <cstdint>
 
+#include "kernels/pinhole.h"
 #include "probegi/render.h"
-#include "render/pinhole.h"
 #include "render/tile_samples.h"
 
 namespace probegi {
@@ -30,7 +30,7 @@ private:
     const Lighting& m_lighting;
     const Field* m_field;
     PictureDesc m_desc;
-    Pinhole m_camera;
+    kernels::PinholeCamera m_camera;
     float m_sceneMagnitude;
     std::atomic<std::int64_t> m_primaryNs{0}, m_directNs{0}, m_queryNs{0};
 };

@@ -29,6 +29,7 @@ public:
     void writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBinding) const;
     FieldMemory memory() const noexcept;
 
+    const FieldDesc& desc() const noexcept { return m_desc; }  ///< as it was made
     const FieldLayout& layout() const noexcept { return m_layout; }
     const Image& irradiance() const noexcept { return m_irradiance; }
     const Image& visibility() const noexcept { return m_visibility; }

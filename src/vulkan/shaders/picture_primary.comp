@@ -16,8 +16,7 @@ Ray primaryRay(uint index) {
     const int within = int(index) % perPixel;
     const float x = float(pixel % push.width) + (float(within % side) + 0.5) / float(side);
     const float y = float(push.firstRow + pixel / push.width) + (float(within / side) + 0.5) / float(side);
-    const vec3 direction = normalize(push.corner + x * push.pixelRight + y * push.pixelDown);
-    return Ray(push.cameraOrigin, 0.0, direction, kNoHitDistance);
+    return Ray(push.camera.origin, 0.0, pinholeDirection(push.camera, x, y), kNoHitDistance);
 }
 
 void main() {

@@ -1,4 +1,4 @@
-#include "cpu/probe_trace.h"
+#include "surface/probe_trace.h"
 
 #include <chrono>
 #include <glm/geometric.hpp>
@@ -72,13 +72,13 @@ void addDirectLight(const Tracer& tracer, const Lighting& lighting, float magnit
 }
 
 // Irradiance of earlier bounces at the hits: last frame's field (section 2.3).
-void queryBounces(const FieldView* field, TaskBuffers& b) {
+void queryBounces(const BounceQuery& bounces, TaskBuffers& b) {
     b.irradiance.assign(b.lit.size(), glm::vec3(0));
-    if (!field) return;
+    if (!bounces) return;
     b.queries.clear();
     for (const std::uint32_t i : b.lit)
         b.queries.push_back({b.surfaces[i].position, b.surfaces[i].shadingNormal, -b.rays[i].direction});
-    queryIrradiance(*field, b.queries, b.irradiance);
+    bounces(b.queries, b.irradiance);
 }
 
 // Distances and the radiance that does not depend on other light; lists the hits that reflect.
@@ -100,7 +100,7 @@ void resolveHits(const Lighting& lighting, TaskBuffers& b, RayDatum* out) {
 }  // namespace
 
 void traceProbes(const Context& context, const GridDesc& grid, std::span<const glm::vec3> directions,
-                 const Tracer& tracer, const Lighting& lighting, const FieldView* lastFrame,
+                 const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces,
                  std::span<RayDatum> rayData, TraceTimes& times) {
     const float magnitude = sceneMagnitude(tracer.bounds());
     const std::size_t probesPerTask = std::max<std::size_t>(1, kRaysPerTask / directions.size());
@@ -114,7 +114,7 @@ void traceProbes(const Context& context, const GridDesc& grid, std::span<const g
         tracer.surfaces(b.rays, b.hits, b.surfaces);
         RayDatum* out = rayData.data() + begin * directions.size();
         resolveHits(lighting, b, out);
-        queryBounces(lastFrame, b);
+        queryBounces(bounces, b);
         addDirectLight(tracer, lighting, magnitude, b);
         for (std::size_t k = 0; k < b.lit.size(); ++k)
             out[b.lit[k]].radiance += kernels::bounceRadiance(b.surfaces[b.lit[k]].albedo, b.irradiance[k]);

@@ -1,0 +1,34 @@
+// Primary rays of a perspective camera: through an image plane at distance 1. Pixel (0, 0) is the top left one; x and y
+// may be fractional, a pixel's centre is at + 0.5.
+#ifndef PROBEGI_KERNELS_PINHOLE_H
+#define PROBEGI_KERNELS_PINHOLE_H
+
+#include "kernels/language.h"
+
+KERNELS_BEGIN
+
+struct PinholeCamera {
+    vec3 origin;
+    vec3 corner;      // from the origin to the image's top left corner
+    vec3 pixelRight;  // from one pixel to the next
+    vec3 pixelDown;
+};
+
+// `forward` and `up` are unit and orthogonal, `yfov` is vertical, radians.
+KERNEL_FN PinholeCamera makePinhole(vec3 origin, vec3 forward, vec3 up, float yfov, int width, int height) {
+    const float pixel = 2.0f * tan(0.5f * yfov) / float(height);
+    PinholeCamera camera;
+    camera.origin = origin;
+    camera.pixelRight = cross(forward, up) * pixel;
+    camera.pixelDown = up * -pixel;
+    camera.corner = forward - camera.pixelRight * (0.5f * float(width)) - camera.pixelDown * (0.5f * float(height));
+    return camera;
+}
+
+KERNEL_FN vec3 pinholeDirection(PinholeCamera camera, float x, float y) {
+    return normalize(camera.corner + camera.pixelRight * x + camera.pixelDown * y);
+}
+
+KERNELS_END
+
+#endif

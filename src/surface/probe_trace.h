@@ -1,0 +1,27 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <span>
+
+#include "probegi/field.h"
+
+namespace probegi {
+
+/// Nanoseconds summed over threads.
+struct TraceTimes {
+    std::atomic<std::int64_t> traceNs{0};
+    std::atomic<std::int64_t> shadeNs{0};
+};
+
+/// The field of the last update at points: E in W m^-2. Called from several threads at once.
+using BounceQuery = std::function<void(std::span<const FieldQuery>, std::span<glm::vec3>)>;
+
+/// Traces and shades the rays of all probes on the context's threads, with any tracer: closest hits, surfaces, punctual
+/// lights with shadow rays, emission, sky, and the light of earlier bounces (empty: none). Fills rayData as
+/// [probe][ray].
+void traceProbes(const Context& context, const GridDesc& grid, std::span<const glm::vec3> directions,
+                 const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces,
+                 std::span<RayDatum> rayData, TraceTimes& times);
+
+}  // namespace probegi

@@ -1,0 +1,12 @@
+#include "lane.h"
+
+#include "kernels/gpu_passes.h"
+
+// Structs only: that both languages know them by the same members.
+void evaluate(INOUT(Lane) lane) {
+    QueryPush query;
+    query.queries = uvec2(takeBits(lane), 1u);
+    query.count = 3u;
+    giveBits(lane, query.queries.x + query.count);
+    giveBits(lane, uint(kPictureDiffuseOnly + kSampleSky + kSampleSurface + kSampleBackface));
+}
