@@ -67,7 +67,7 @@ bool usable(const Bounds& box) {
            box.lower.z <= box.upper.z;
 }
 
-/// Visits of a node that the test of a triangle costs; of 0.2, 0.3, 0.5 and 0.8 the fastest on Sponza.
+/// The paper's. From 0.15 to 1.2 nothing moves by more than a few per cent on Sponza but the number of nodes (a third).
 constexpr CollapseCosts kTriangleCosts{.leafItem = 0.3f, .maxLeafSize = int(kernels::kBvhLeafSize)};
 /// An instance costs the visit of a root at least.
 constexpr CollapseCosts kInstanceCosts{.leafItem = 1.5f, .maxLeafSize = 1};

@@ -46,10 +46,11 @@ struct InstanceBvh {
 
 /// `opaque` and `masked` are geometry 0 and 1 of the hits. Left out, since no ray can hit them: triangles without area,
 /// with a corner that is not finite or beyond 1.8e18 (as in Embree: squares must not overflow), or with an index beyond
-/// the positions. Errors: outOfMemory, invalidArgument (2^24 nodes' worth of levels cannot hold the triangles).
+/// the positions. Errors: outOfMemory, invalidArgument (more than 2^31 triangles, or no Embree on this processor).
 Result<TriangleBvh> buildTriangleBvh(const Context& context, const TriangleSoup& opaque, const TriangleSoup& masked);
 
-/// Boxes that are not finite or inside out are left out. Errors as above.
+/// Boxes that are not finite or inside out are left out. Errors as above, and invalidArgument where
+/// kernels::kBvhInstanceLevels cannot hold them (some 8^9 boxes).
 Result<InstanceBvh> buildInstanceBvh(const Context& context, std::span<const Bounds> boxes);
 
 /// Moved triangles or boxes: same soups in number and indices, same topology, new planes. What was left out stays out;

@@ -4,7 +4,9 @@
 #include <bit>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
+#include <set>
 
+#include "bvh/collapse.h"
 #include "bvh/soups.h"
 
 namespace probegi::test {
@@ -160,6 +162,22 @@ TEST(BvhStructure, DeepTreesStayWithinTheStack) {
     const TriangleBvh bvh = buildOpaque(soup);
     checkTriangles(bvh, bvh.triangles.size());
     EXPECT_GT(bvh.triangles.size(), 19000u);
+}
+
+TEST(BvhStructure, BalancedTreesAreAsFlatAsTheyCanBe) {
+    std::mt19937 random(9);
+    for (const std::size_t count : {std::size_t(1), std::size_t(8), std::size_t(9), std::size_t(3000)}) {
+        std::vector<BuildItem> items;
+        for (std::size_t i = 0; i < count; ++i) {
+            const glm::vec3 p = randomIn(random, 1.0f);
+            items.push_back({{p, p}, std::uint32_t(i)});
+        }
+        for (const int leaf : {1, 3}) {
+            const WideTree tree = collapseByLevels(buildBalancedTree(items), leaf);
+            EXPECT_EQ(tree.levels, count <= 8 ? 1 : count <= 9 ? 3 - (leaf == 3 ? 2 : 1) : 4);
+            EXPECT_EQ(std::set<std::uint32_t>(tree.order.begin(), tree.order.end()).size(), count);
+        }
+    }
 }
 
 TEST(BvhStructure, BoundsAreTheTriangles) {

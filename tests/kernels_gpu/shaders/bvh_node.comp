@@ -11,12 +11,13 @@ BvhNode takeNode(INOUT(Lane) lane) {
     node.children = 0u;
     node.leaves = 0u;
     node.meta = uvec2(0x26622320u, (kBvhInnerMeta + 4u) * 0x01010101u + 0x03020100u);
-    node.lowerX = uvec2(takeBits(lane), takeBits(lane) & 0x7f7f7f7fu);
-    node.lowerY = uvec2(takeBits(lane) & 0x7f7f7f7fu, 0x01020304u);
-    node.lowerZ = uvec2(takeBits(lane) & 0x7f7f7f7fu, 0x10203040u);
-    node.upperX = uvec2(takeBits(lane), takeBits(lane) | 0x80808080u);
-    node.upperY = uvec2(takeBits(lane) | 0x80808080u, 0xfdfcfbfau);
-    node.upperZ = uvec2(takeBits(lane) | 0x80808080u, 0xf0e0d0c0u);
+    // The first four children anything, the last four right side out and wide.
+    node.lowerX = uvec2(takeBits(lane), 0x120c0426u);
+    node.lowerY = uvec2(takeBits(lane), 0x01020304u);
+    node.lowerZ = uvec2(takeBits(lane), 0x10203040u);
+    node.upperX = uvec2(takeBits(lane), 0x80e0f0a3u);
+    node.upperY = uvec2(takeBits(lane), 0xfdfcfbfau);
+    node.upperZ = uvec2(takeBits(lane), 0xf0e0d0c0u);
     return node;
 }
 
@@ -39,7 +40,7 @@ void evaluate(INOUT(Lane) lane) {
     giveBits(lane, bvhNodeHits(node, ray, 1.25f, 1e30f));
     giveBits(lane, bvhFourChildren(node.meta.y, ray.octant, uvec3(0u), uvec3(0xffffffffu), vec3(0.01f), direction,
                                    vec3(0.5f), 0.0f, far));
-    giveVec3(lane, bvhRotate(origin, takeIndex(lane, 3)), 0.0f);
+    giveVec3(lane, bvhRotate(origin, takeIndex(lane, 3)), 1e-6f);
     giveBits(lane, bvhIsFinite(anything) ? 1u : 0u);
     giveBits(lane, bvhRayIsValid(origin, 0.0f, direction * anything, far) ? 1u : 0u);
     giveBits(lane, bvhRayIsValid(origin, anything, direction, far) ? 1u : 0u);

@@ -4,7 +4,7 @@
 
 void evaluate(INOUT(Lane) lane) {
     BvhInstance placed;
-    placed.row0 = vec4(takeVector(lane, -2.0f, 2.0f), takeUnit(lane));
+    placed.row0 = vec4(takeVector(lane, -2.0f, 2.0f), 0.25f);
     placed.row1 = vec4(takeVector(lane, -2.0f, 2.0f), 3.0f);
     placed.row2 = vec4(takeVector(lane, -2.0f, 2.0f), -1.0f);
     placed.root = kBvhNone;
