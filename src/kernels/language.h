@@ -59,6 +59,7 @@ using glm::normalize;
 using glm::pow;
 using glm::reflect;
 using glm::sqrt;
+using std::abs;  // of scalars: glm's is a branch
 using std::acos;
 using std::atan;
 using std::cos;

@@ -14,9 +14,10 @@ KERNEL_CONST int kWrapMirroredRepeat = 2;
 
 // KHR_texture_transform: the upper two rows of its matrix on (u, v, 1). What is not finite becomes 0.
 KERNEL_FN vec2 transformUv(vec3 rowU, vec3 rowV, vec2 uv) {
-    const float u = rowU.x * uv.x + rowU.y * uv.y + rowU.z;
-    const float v = rowV.x * uv.x + rowV.y * uv.y + rowV.z;
-    return vec2(abs(u) < 3e38f ? u : 0.0f, abs(v) < 3e38f ? v : 0.0f);
+    vec2 at = vec2(rowU.x * uv.x + rowU.y * uv.y + rowU.z, rowV.x * uv.x + rowV.y * uv.y + rowV.z);
+    if (!(abs(at.x) < 3e38f)) at.x = 0.0f;
+    if (!(abs(at.y) < 3e38f)) at.y = 0.0f;
+    return at;
 }
 
 // Brings a coordinate into 0..1. Indices just outside are then repeated (repeat) or clamped (the other two: the
