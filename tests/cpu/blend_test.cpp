@@ -129,52 +129,5 @@ TEST(Blend, badRadianceAndDistanceNeverEnterTheAtlas) {
     EXPECT_EQ(good.storage.visibility, bad.storage.visibility);
 }
 
-// The sign of not-a-number says nothing: 0 / 0 has either.
-TEST(Blend, notANumberIsNoBackface) {
-    BlendInput s;
-    for (RayDatum& d : s.data) d = {glm::vec3(2.0f), -kNan};
-    s.blend();
-    for (const float share : s.storage.backfaceShare) EXPECT_EQ(share, 0.0f);
-    EXPECT_NEAR(kernels::decodeIrradiance(s.stored(3, 20, 1)), 2.0f, 0.02f);
-}
-
-TEST(Blend, allRaysOnBackfacesAreDarkUnderBothRules) {
-    for (const BackfaceRule rule : {BackfaceRule::zeroSample, BackfaceRule::excluded}) {
-        BlendInput s(rule);
-        for (RayDatum& d : s.data) d = {glm::vec3(5.0f), -0.5f};
-        s.blend();
-        for (const std::uint16_t half : s.storage.irradiance) ASSERT_EQ(half, 0);
-    }
-}
-
-// Closed form: light from one narrow direction w reaches texel n with max(0, n.w) / sum, so that ratios of texels are
-// ratios of cosines.
-TEST(Blend, oneBrightDirectionGivesAClampedCosine) {
-    BlendInput s;
-    const std::size_t bright = 42;
-    for (std::size_t i = 0; i < s.data.size(); ++i)
-        s.data[i] = {glm::vec3(i % s.layout.rays == bright ? 50.0f : 0.0f), 1.0f};
-    s.blend();
-    for (int texel = 0; texel < 64; ++texel) {
-        const glm::vec3 n = kernels::octTexelDirection(texel % 8, texel / 8, 8);
-        const float cosine = std::max(0.0f, glm::dot(n, s.directions[bright]));
-        // The weights of a uniform set sum to N / 4.
-        const float expected = 50.0f * cosine / (float(s.layout.rays) / 4.0f);
-        EXPECT_NEAR(kernels::decodeIrradiance(s.stored(3, texel, 0)), expected, 0.02f * expected + 1e-5f);
-    }
-}
-
-TEST(Blend, hysteresisKeepsItsShareOfTheOldValue) {
-    BlendInput s;
-    s.desc.significantChange = s.desc.newDistribution = 0;
-    for (RayDatum& d : s.data) d = {glm::vec3(1.0f), 1.0f};
-    s.blend();
-    for (RayDatum& d : s.data) d = {glm::vec3(32.0f), 2.0f};  // encoded: 1 and 2
-    s.blend(2, {{0.75f, 0.5f}, false, 6});
-    EXPECT_NEAR(s.stored(7, 20, 0), 0.75f * 1 + 0.25f * 2, 2e-3f);
-    const float mean = kernels::unpackUnorm16(s.storage.visibility[5 * 256 + 9] & 0xffff) * s.layout.maxDistance;
-    EXPECT_NEAR(mean, 1.5f, 1e-3f);
-}
-
 }  // namespace
 }  // namespace probegi

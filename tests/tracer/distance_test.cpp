@@ -31,10 +31,13 @@ Primitive sphere(int segments) {
 
 }  // namespace
 
-TEST(EmbreeTracer, PlaneDistanceIsHeightOverCosine) {
+class TracerDistance : public EveryTracer {};
+PROBEGI_ON_EVERY_TRACER(TracerDistance);
+
+TEST_P(TracerDistance, PlaneDistanceIsHeightOverCosine) {
     TestScene s;
     s.add(quad(), glm::scale(glm::mat4(1.0f), glm::vec3(100.0f)));
-    const auto tracer = s.trace();
+    const auto tracer = trace(GetParam(), s);
     std::mt19937 random(1);
     for (int i = 0; i < 200; ++i) {
         const glm::vec3 origin = randomPoint(random, 5.0f) + glm::vec3(0, 8, 0);
@@ -51,20 +54,20 @@ TEST(EmbreeTracer, PlaneDistanceIsHeightOverCosine) {
     }
 }
 
-TEST(EmbreeTracer, RayThatLeavesThePlaneMisses) {
+TEST_P(TracerDistance, RayThatLeavesThePlaneMisses) {
     TestScene s;
     s.add(quad());
-    const Shot shot = shoot(*s.trace(), rayAlong({0, 1, 0}, {0.1f, 1, 0}));
+    const Shot shot = shoot(*trace(GetParam(), s), rayAlong({0, 1, 0}, {0.1f, 1, 0}));
     EXPECT_FALSE(shot.hit.valid());
     EXPECT_FALSE(shot.blocked);
     EXPECT_EQ(shot.hit.distance, Hit().distance);
 }
 
-TEST(EmbreeTracer, BoxFromInside) {
+TEST_P(TracerDistance, BoxFromInside) {
     TestScene s;
     std::mt19937 random(2);
     s.add(innerBox(1, random));
-    const auto tracer = s.trace();
+    const auto tracer = trace(GetParam(), s);
     for (int i = 0; i < 500; ++i) {
         const Ray ray = rayAlong(randomPoint(random, 0.9f), randomDirection(random));
         float expected = 1e30f;
@@ -80,11 +83,11 @@ TEST(EmbreeTracer, BoxFromInside) {
     }
 }
 
-TEST(EmbreeTracer, TessellatedSphereLiesBetweenItsRadii) {
+TEST_P(TracerDistance, TessellatedSphereLiesBetweenItsRadii) {
     TestScene s;
     constexpr int kSegments = 64;
     s.add(sphere(kSegments));
-    const auto tracer = s.trace();
+    const auto tracer = trace(GetParam(), s);
     // A facet's circumscribed circle spans less than one step of the tessellation.
     const float inner = std::cos(glm::two_pi<float>() / kSegments);
     std::mt19937 random(3);
@@ -102,11 +105,11 @@ TEST(EmbreeTracer, TessellatedSphereLiesBetweenItsRadii) {
     }
 }
 
-TEST(EmbreeTracer, NearAndFarLimitTheRay) {
+TEST_P(TracerDistance, NearAndFarLimitTheRay) {
     TestScene s;
     s.add(quad());
     s.add(quad(), glm::translate(glm::mat4(1.0f), glm::vec3(0, -1, 0)));
-    const auto tracer = s.trace();
+    const auto tracer = trace(GetParam(), s);
     const auto at = [&](float near, float far) { return shoot(*tracer, {{0.1f, 1, 0.2f}, near, {0, -1, 0}, far}); };
     EXPECT_EQ(at(0.0f, 1e30f).hit.distance, 1.0f);
     EXPECT_EQ(at(1.5f, 1e30f).hit.distance, 2.0f);
@@ -118,12 +121,12 @@ TEST(EmbreeTracer, NearAndFarLimitTheRay) {
     EXPECT_TRUE(at(1.25f, 2.25f).blocked);
 }
 
-TEST(EmbreeTracer, EmptySceneHasZeroBoundsAndNoHits) {
+TEST_P(TracerDistance, EmptySceneHasZeroBoundsAndNoHits) {
     for (const bool withMesh : {false, true}) {
         TestScene s;
         if (withMesh) s.scene.meshes.emplace_back();
         if (withMesh) s.place(0);
-        const auto tracer = s.trace();
+        const auto tracer = trace(GetParam(), s);
         EXPECT_EQ(tracer->bounds().size(), glm::vec3(0.0f));
         const Shot shot = shoot(*tracer, rayAlong({0, 1, 0}, {0, -1, 0}));
         EXPECT_FALSE(shot.hit.valid());
@@ -133,18 +136,18 @@ TEST(EmbreeTracer, EmptySceneHasZeroBoundsAndNoHits) {
     }
 }
 
-TEST(EmbreeTracer, BoundsCoverAllPlacements) {
+TEST_P(TracerDistance, BoundsCoverAllPlacements) {
     TestScene s;
     const int mesh = s.addMesh(quad());
     s.place(mesh, glm::translate(glm::mat4(1.0f), glm::vec3(10, 3, 0)));
     s.place(mesh, glm::translate(glm::mat4(1.0f), glm::vec3(-10, -2, 0)));
     s.add(quad(), glm::translate(glm::mat4(1.0f), glm::vec3(0, 0, 7)));
-    const Bounds bounds = s.trace()->bounds();
+    const Bounds bounds = trace(GetParam(), s)->bounds();
     expectNear(bounds.lower, {-11, -2, -1}, 1e-4f);
     expectNear(bounds.upper, {11, 3, 8}, 1e-4f);
 }
 
-TEST(EmbreeTracer, ZeroAreaTrianglesAreHarmless) {
+TEST_P(TracerDistance, ZeroAreaTrianglesAreHarmless) {
     TestScene s;
     Primitive p = quad();
     p.indices.insert(p.indices.end(), {0, 0, 0, 1, 1, 2, 0, 2, 0});
@@ -153,7 +156,7 @@ TEST(EmbreeTracer, ZeroAreaTrianglesAreHarmless) {
     const int flat = s.addMesh(quad());
     s.place(flat, glm::translate(glm::mat4(1.0f), glm::vec3(0, -1, 0)));
     s.place(flat, glm::scale(glm::mat4(1.0f), glm::vec3(1, 0, 0)));
-    const auto tracer = s.trace();
+    const auto tracer = trace(GetParam(), s);
     std::mt19937 random(4);
     for (int i = 0; i < 200; ++i) {
         const glm::vec3 target = glm::vec3(0.9f, 0, 0.9f) * randomPoint(random, 1.0f);
@@ -163,10 +166,10 @@ TEST(EmbreeTracer, ZeroAreaTrianglesAreHarmless) {
     }
 }
 
-TEST(EmbreeTracer, NonFiniteRaysHitNothing) {
+TEST_P(TracerDistance, NonFiniteRaysHitNothing) {
     TestScene s;
     s.add(quad());
-    const auto tracer = s.trace();
+    const auto tracer = trace(GetParam(), s);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     std::vector<Ray> rays(40, rayAlong({0, 1, 0}, {0, -1, 0}));
     rays[3].direction.x = nan;

@@ -99,9 +99,12 @@ std::vector<Ray> randomRays(std::size_t count) {
 
 }  // namespace
 
-TEST(EmbreeTracerOracle, AgreesWithBruteForce) {
+class TracerOracle : public EveryTracer {};
+PROBEGI_ON_EVERY_TRACER(TracerOracle);
+
+TEST_P(TracerOracle, AgreesWithBruteForce) {
     const TestScene s = makeSoups();
-    const auto tracer = s.trace();
+    const auto tracer = trace(GetParam(), s);
     const std::vector<Ray> rays = randomRays(3000);
     std::vector<Hit> hits(rays.size());
     std::vector<Surface> surfaces(rays.size());
@@ -133,7 +136,7 @@ TEST(EmbreeTracerOracle, AgreesWithBruteForce) {
 
 TEST(EmbreeTracerOracle, SharedMeshesAreInstances) {
     const TestScene s = makeSoups();
-    const auto tracer = s.trace();
+    const auto tracer = trace(tracerMakers()[0], s);
     const std::vector<Ray> rays = randomRays(1000);
     std::vector<Hit> hits(rays.size());
     tracer->closestHits(rays, hits);
@@ -148,9 +151,9 @@ TEST(EmbreeTracerOracle, SharedMeshesAreInstances) {
     EXPECT_GT(merged, 50);
 }
 
-TEST(EmbreeTracerOracle, ARayDoesNotDependOnItsBatch) {
+TEST_P(TracerOracle, ARayDoesNotDependOnItsBatch) {
     const TestScene s = makeSoups();
-    const auto tracer = s.trace();
+    const auto tracer = trace(GetParam(), s);
     std::vector<Ray> rays = randomRays(1003);
     for (std::size_t i = 400; i < 700; ++i)  // as coherent as rows of pixels
         rays[i] = rayAlong({0, 0, 5}, {-0.3f + 0.002f * float(i - 400), 0.1f, -1});
@@ -168,10 +171,10 @@ TEST(EmbreeTracerOracle, ARayDoesNotDependOnItsBatch) {
     }
 }
 
-TEST(EmbreeTracerOracle, TheBuildDoesNotDependOnThreads) {
+TEST_P(TracerOracle, TheBuildDoesNotDependOnThreads) {
     const TestScene s = makeSoups();
-    const auto one = s.trace(1);
-    const auto four = s.trace(4);
+    const auto one = trace(GetParam(), s, 1);
+    const auto four = trace(GetParam(), s, 4);
     const std::vector<Ray> rays = randomRays(2000);
     std::vector<Hit> a(rays.size()), b(rays.size());
     one->closestHits(rays, a);

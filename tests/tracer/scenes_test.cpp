@@ -14,7 +14,7 @@ struct Traced {
     ScenePose pose;
     std::unique_ptr<Tracer> tracer;
 
-    explicit Traced(const char* file) {
+    Traced(const TracerMaker& maker, const char* file) {
         Result<LoadedScene> result = loadScene(scenesFolder() / file);
         if (!result) {
             ADD_FAILURE() << result.error().message;
@@ -22,7 +22,12 @@ struct Traced {
         }
         loaded = std::move(*result);
         pose = poseAt(loaded.scene);
-        tracer = makeEmbreeTracer(makeContext(2), loaded.scene, pose).value();
+        auto made = maker.make(makeContext(2), loaded.scene, pose);
+        if (!made) {
+            ADD_FAILURE() << made.error().message;
+            return;
+        }
+        tracer = std::move(*made);
     }
 };
 
@@ -54,8 +59,11 @@ struct Walk {
 
 }  // namespace
 
-TEST(RealScenes, NothingLeavesTheClosedRoomOfTwoRooms) {
-    const Traced scene("rtxgi/two-rooms.glb");
+class TracerRealScenes : public EveryTracer {};
+PROBEGI_ON_EVERY_TRACER(TracerRealScenes);
+
+TEST_P(TracerRealScenes, NothingLeavesTheClosedRoomOfTwoRooms) {
+    const Traced scene(GetParam(), "rtxgi/two-rooms.glb");
     ASSERT_TRUE(scene.tracer);
     std::mt19937 random(31);
     Walk walk({-42.60f, 36.41f, -53.41f}, 2000, random);  // the camera in the closed room
@@ -65,8 +73,8 @@ TEST(RealScenes, NothingLeavesTheClosedRoomOfTwoRooms) {
     for (const Surface& s : walk.surfaces) EXPECT_LT(s.position.z, 5.0f) << "in the other room";
 }
 
-TEST(RealScenes, SponzaIsNearlyClosed) {
-    const Traced scene("sponza/sponza.glb");
+TEST_P(TracerRealScenes, SponzaIsNearlyClosed) {
+    const Traced scene(GetParam(), "sponza/sponza.glb");
     ASSERT_TRUE(scene.tracer);
     EXPECT_EQ(triangleCount(scene.loaded.scene, scene.pose), 262267u);
     expectNear(scene.tracer->bounds().lower, {-19.21f, -1.26f, -11.83f}, 0.01f);
@@ -79,8 +87,8 @@ TEST(RealScenes, SponzaIsNearlyClosed) {
     EXPECT_LT(double(walk.backfaces) / double(walk.steps), 0.01);
 }
 
-TEST(RealScenes, SponzaSurfacesAreSound) {
-    const Traced scene("sponza/sponza.glb");
+TEST_P(TracerRealScenes, SponzaSurfacesAreSound) {
+    const Traced scene(GetParam(), "sponza/sponza.glb");
     ASSERT_TRUE(scene.tracer);
     std::mt19937 random(33);
     Walk walk({-9, 2.5f, 0}, 4000, random);

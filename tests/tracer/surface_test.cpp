@@ -41,10 +41,13 @@ glm::vec3 decode(glm::u8vec3 code) {
 
 }  // namespace
 
-TEST(Surface, FrontOfASingleSidedMaterial) {
+class TracerSurface : public EveryTracer {};
+PROBEGI_ON_EVERY_TRACER(TracerSurface);
+
+TEST_P(TracerSurface, FrontOfASingleSidedMaterial) {
     TestScene s;
     s.add(quad(s.addMaterial(glowing())));
-    const Shot shot = shoot(*s.trace(), kDown);
+    const Shot shot = shoot(*trace(GetParam(), s), kDown);
     EXPECT_FALSE(shot.surface.backface);
     EXPECT_EQ(shot.surface.material, 1);
     EXPECT_EQ(shot.surface.albedo, glm::vec3(0.25f, 0.5f, 0.75f));
@@ -55,10 +58,10 @@ TEST(Surface, FrontOfASingleSidedMaterial) {
     expectNear(shot.surface.shadingNormal, {0, 1, 0}, 1e-6f);
 }
 
-TEST(Surface, BackOfASingleSidedMaterialIsBlack) {
+TEST_P(TracerSurface, BackOfASingleSidedMaterialIsBlack) {
     TestScene s;
     s.add(quad(s.addMaterial(glowing())));
-    const Shot shot = shoot(*s.trace(), kUp);
+    const Shot shot = shoot(*trace(GetParam(), s), kUp);
     ASSERT_TRUE(shot.hit.valid()) << "backs are not culled";
     EXPECT_TRUE(shot.blocked);
     EXPECT_TRUE(shot.surface.backface);
@@ -68,34 +71,36 @@ TEST(Surface, BackOfASingleSidedMaterialIsBlack) {
     expectNear(shot.surface.shadingNormal, {0, -1, 0}, 1e-6f);
 }
 
-TEST(Surface, DoubleSidedMaterialsHaveNoBack) {
+TEST_P(TracerSurface, DoubleSidedMaterialsHaveNoBack) {
     TestScene s;
     Material m = glowing();
     m.doubleSided = true;
     s.add(quad(s.addMaterial(m)));
-    const Shot shot = shoot(*s.trace(), kUp);
+    const Shot shot = shoot(*trace(GetParam(), s), kUp);
     EXPECT_FALSE(shot.surface.backface);
     EXPECT_EQ(shot.surface.albedo, glm::vec3(0.25f, 0.5f, 0.75f));
     EXPECT_EQ(shot.surface.emission, glm::vec3(3, 2, 1));
     expectNear(shot.surface.geometricNormal, {0, -1, 0}, 1e-6f);
 }
 
-TEST(Surface, MirroredPlacementsKeepTheirFront) {
+TEST_P(TracerSurface, MirroredPlacementsKeepTheirFront) {
     const glm::mat4 mirror = glm::scale(glm::mat4(1.0f), glm::vec3(-1, 1, 1));
     for (const bool shared : {false, true}) {
         TestScene s;
         const int mesh = s.addMesh(quad());
         s.place(mesh, mirror);
         if (shared) s.place(mesh, glm::translate(mirror, glm::vec3(10, 0, 0)));
-        const auto tracer = s.trace();
-        EXPECT_EQ(shoot(*tracer, kDown).hit.instance >= 0, shared);
+        const auto tracer = trace(GetParam(), s);
+        if (GetParam().tellsInstances) {
+            EXPECT_EQ(shoot(*tracer, kDown).hit.instance >= 0, shared);
+        }
         EXPECT_FALSE(shoot(*tracer, kDown).surface.backface);
         EXPECT_TRUE(shoot(*tracer, kUp).surface.backface);
         expectNear(shoot(*tracer, kDown).surface.geometricNormal, {0, 1, 0}, 1e-6f);
     }
 }
 
-TEST(Surface, NormalsFollowNonUniformScale) {
+TEST_P(TracerSurface, NormalsFollowNonUniformScale) {
     // The plane y = x, stretched twofold along x, becomes y = x / 2.
     Primitive slope = quad();
     for (glm::vec3& p : slope.positions) p.y = p.x;
@@ -106,7 +111,7 @@ TEST(Surface, NormalsFollowNonUniformScale) {
         const int mesh = s.addMesh(slope);
         s.place(mesh, stretch);
         if (shared) s.place(mesh, glm::translate(stretch, glm::vec3(0, 0, 10)));
-        const Shot shot = shoot(*s.trace(), rayAlong({0.5f, 5, 0}, {0, -1, 0}));
+        const Shot shot = shoot(*trace(GetParam(), s), rayAlong({0.5f, 5, 0}, {0, -1, 0}));
         const glm::vec3 expected = glm::normalize(glm::vec3(-1, 2, 0));
         expectNear(shot.surface.geometricNormal, expected, 1e-5f);
         expectNear(shot.surface.shadingNormal, expected, 1e-5f);
@@ -114,35 +119,35 @@ TEST(Surface, NormalsFollowNonUniformScale) {
     }
 }
 
-TEST(Surface, NormalsAreInterpolated) {
+TEST_P(TracerSurface, NormalsAreInterpolated) {
     Primitive p = quad();
     p.normals = {glm::normalize(glm::vec3(-1, 1, 0)), glm::normalize(glm::vec3(-1, 1, 0)),
                  glm::normalize(glm::vec3(1, 1, 0)), glm::normalize(glm::vec3(1, 1, 0))};
     TestScene s;
     s.add(p);
-    const auto tracer = s.trace();
+    const auto tracer = trace(GetParam(), s);
     expectNear(shoot(*tracer, rayAlong({0, 1, 0.1f}, {0, -1, 0})).surface.shadingNormal, {0, 1, 0}, 1e-6f);
     const glm::vec3 half = shoot(*tracer, rayAlong({0.5f, 1, 0.1f}, {0, -1, 0})).surface.shadingNormal;
     expectNear(half, glm::normalize(glm::vec3(0.5f, 1, 0)), 1e-5f);
 }
 
-TEST(Surface, NormalsAgainstTheWindingTurnToIt) {
+TEST_P(TracerSurface, NormalsAgainstTheWindingTurnToIt) {
     Primitive p = quad();
     p.normals.assign(4, {0, -1, 0});
     TestScene s;
     s.add(p);
-    const auto tracer = s.trace();
+    const auto tracer = trace(GetParam(), s);
     EXPECT_FALSE(shoot(*tracer, kDown).surface.backface) << "the winding decides";
     expectNear(shoot(*tracer, kDown).surface.shadingNormal, {0, 1, 0}, 1e-6f);
 }
 
-TEST(Surface, ShadingNormalsThatFaceAwayAreBent) {
+TEST_P(TracerSurface, ShadingNormalsThatFaceAwayAreBent) {
     Primitive p = quad();
     p.normals.assign(4, glm::normalize(glm::vec3(1, 0.2f, 0)));
     TestScene s;
     s.add(p);
     const Ray grazing = rayAlong({-0.9f, 0.5f, 0.1f}, {1, -0.6f, 0});
-    const Shot shot = shoot(*s.trace(), grazing);
+    const Shot shot = shoot(*trace(GetParam(), s), grazing);
     ASSERT_TRUE(shot.hit.valid());
     const float cosine = glm::dot(shot.surface.shadingNormal, -grazing.direction);
     EXPECT_GT(cosine, 0.0f);
@@ -151,17 +156,17 @@ TEST(Surface, ShadingNormalsThatFaceAwayAreBent) {
     expectNear(shot.surface.geometricNormal, {0, 1, 0}, 1e-6f);
 }
 
-TEST(Surface, NormalMapPointsAlongTheImage) {
+TEST_P(TracerSurface, NormalMapPointsAlongTheImage) {
     // Red leans the normal towards +u, which is +x here; green towards the image's top, which is -z.
     const glm::u8vec3 code(180, 200, 230);
     const glm::vec3 n = decode(code);
     TestScene s = mappedQuad(code);
     s.place(0);
-    expectNear(shoot(*s.trace(), kDown).surface.shadingNormal, {n.x, n.z, -n.y}, 1e-5f);
-    expectNear(shoot(*s.trace(), kDown).surface.geometricNormal, {0, 1, 0}, 1e-6f);
+    expectNear(shoot(*trace(GetParam(), s), kDown).surface.shadingNormal, {n.x, n.z, -n.y}, 1e-5f);
+    expectNear(shoot(*trace(GetParam(), s), kDown).surface.geometricNormal, {0, 1, 0}, 1e-6f);
 }
 
-TEST(Surface, NormalMapWithTangentsOfTheFile) {
+TEST_P(TracerSurface, NormalMapWithTangentsOfTheFile) {
     const glm::u8vec3 code(180, 200, 230);
     const glm::vec3 n = decode(code);
     TestScene s = mappedQuad(code);
@@ -169,10 +174,10 @@ TEST(Surface, NormalMapWithTangentsOfTheFile) {
     s.scene.meshes[0].primitives[0].tangents.assign(4, {0, 0, 1, -1});
     s.scene.meshes[0].primitives[0].normals.assign(4, {0, 1, 0});
     s.place(0);
-    expectNear(shoot(*s.trace(), kDown).surface.shadingNormal, {-n.y, n.z, n.x}, 1e-5f);
+    expectNear(shoot(*trace(GetParam(), s), kDown).surface.shadingNormal, {-n.y, n.z, n.x}, 1e-5f);
 }
 
-TEST(Surface, NormalMapFollowsPlacements) {
+TEST_P(TracerSurface, NormalMapFollowsPlacements) {
     const glm::u8vec3 code(180, 200, 230);
     const glm::vec3 n = decode(code);
     for (const bool given : {false, true}) {
@@ -183,27 +188,27 @@ TEST(Surface, NormalMapFollowsPlacements) {
             const glm::mat4 mirror = glm::scale(glm::mat4(1.0f), glm::vec3(-1, 1, 1));
             s.place(0, mirror);
             if (shared) s.place(0, glm::translate(mirror, glm::vec3(10, 0, 0)));
-            expectNear(shoot(*s.trace(), kDown).surface.shadingNormal, {-n.x, n.z, -n.y}, 1e-5f);
+            expectNear(shoot(*trace(GetParam(), s), kDown).surface.shadingNormal, {-n.x, n.z, -n.y}, 1e-5f);
         }
     }
 }
 
-TEST(Surface, NormalScaleFlattens) {
+TEST_P(TracerSurface, NormalScaleFlattens) {
     TestScene s = mappedQuad({255, 128, 128}, 0.0f);
     s.place(0);
-    expectNear(shoot(*s.trace(), kDown).surface.shadingNormal, {0, 1, 0}, 1e-6f);
+    expectNear(shoot(*trace(GetParam(), s), kDown).surface.shadingNormal, {0, 1, 0}, 1e-6f);
 }
 
-TEST(Surface, NormalMapWithoutUvsStaysFinite) {
+TEST_P(TracerSurface, NormalMapWithoutUvsStaysFinite) {
     TestScene s = mappedQuad({180, 200, 230});
     s.scene.meshes[0].primitives[0].uv0.assign(4, {0.5f, 0.5f});
     s.place(0);
-    const glm::vec3 normal = shoot(*s.trace(), kDown).surface.shadingNormal;
+    const glm::vec3 normal = shoot(*trace(GetParam(), s), kDown).surface.shadingNormal;
     EXPECT_NEAR(glm::length(normal), 1.0f, 1e-5f);
     EXPECT_GT(normal.y, 0.0f);
 }
 
-TEST(Surface, TexturesMultiplyTheFactors) {
+TEST_P(TracerSurface, TexturesMultiplyTheFactors) {
     TestScene s;
     Material m = glowing();
     m.metallic = m.roughness = 0.5f;
@@ -211,20 +216,20 @@ TEST(Surface, TexturesMultiplyTheFactors) {
     m.metallicRoughnessTexture.image = s.addImage(1, 1, uniform(255, 51, 102));
     m.emissiveTexture.image = s.addImage(1, 1, uniform(255, 188, 0));
     s.add(quad(s.addMaterial(m)));
-    const Surface surface = shoot(*s.trace(), kDown).surface;
+    const Surface surface = shoot(*trace(GetParam(), s), kDown).surface;
     expectNear(surface.albedo, {0.25f * 0.502887f, 0.5f, 0}, 1e-5f);
     EXPECT_FLOAT_EQ(surface.roughness, 0.5f * 0.2f);
     EXPECT_FLOAT_EQ(surface.metallic, 0.5f * 0.4f);
     expectNear(surface.emission, {3, 2 * 0.502887f, 0}, 1e-5f);
 }
 
-TEST(Surface, UvIsThatOfTheHit) {
+TEST_P(TracerSurface, UvIsThatOfTheHit) {
     TestScene s;
     Material m;
     m.baseColorTexture.image = s.addImage(2, 2, {0, 0, 0, 255, 255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255});
     m.baseColorTexture.nearest = true;
     s.add(quad(s.addMaterial(m)));
-    const auto tracer = s.trace();
+    const auto tracer = trace(GetParam(), s);
     const auto albedo = [&](float x, float z) {
         return shoot(*tracer, rayAlong({x, 1, z}, {0, -1, 0})).surface.albedo;
     };
@@ -234,7 +239,7 @@ TEST(Surface, UvIsThatOfTheHit) {
     EXPECT_EQ(albedo(0.5f, 0.4f), glm::vec3(0, 0, 1));
 }
 
-TEST(Surface, SecondUvSet) {
+TEST_P(TracerSurface, SecondUvSet) {
     TestScene s;
     s.add(quad(), glm::translate(glm::mat4(1.0f), glm::vec3(5, 0, 0)));  // vertices before those with a second set
     Material m;
@@ -245,13 +250,13 @@ TEST(Surface, SecondUvSet) {
     p.uv1.assign(4, {0.75f, 0.5f});
     s.add(p);
     s.add(quad(), glm::translate(glm::mat4(1.0f), glm::vec3(-5, 0, 0)));
-    EXPECT_EQ(shoot(*s.trace(), rayAlong({-0.5f, 1, 0.1f}, {0, -1, 0})).surface.albedo, glm::vec3(1, 0, 0));
+    EXPECT_EQ(shoot(*trace(GetParam(), s), rayAlong({-0.5f, 1, 0.1f}, {0, -1, 0})).surface.albedo, glm::vec3(1, 0, 0));
 }
 
-TEST(Surface, MissedRaysLeaveTheirEntry) {
+TEST_P(TracerSurface, MissedRaysLeaveTheirEntry) {
     TestScene s;
     s.add(quad());
-    const auto tracer = s.trace();
+    const auto tracer = trace(GetParam(), s);
     const Ray rays[2] = {rayAlong({9, 1, 9}, {0, -1, 0}), kDown};
     Hit hits[2];
     Surface surfaces[2];

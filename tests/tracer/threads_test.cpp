@@ -7,11 +7,14 @@
 
 namespace probegi::test {
 
-TEST(EmbreeTracerThreads, ManyAtOnceGetTheSameAnswers) {
+class TracerThreads : public EveryTracer {};
+PROBEGI_ON_EVERY_TRACER(TracerThreads);
+
+TEST_P(TracerThreads, ManyAtOnceGetTheSameAnswers) {
     std::mt19937 random(41);
     TestScene s;
     s.add(innerBox(4, random));
-    const auto tracer = s.trace();
+    const auto tracer = trace(GetParam(), s);
     std::vector<Ray> rays(20000);
     for (Ray& ray : rays) ray = rayAlong(randomPoint(random, 0.9f), randomDirection(random));
     std::vector<std::vector<Hit>> hits(4, std::vector<Hit>(rays.size()));
@@ -22,10 +25,10 @@ TEST(EmbreeTracerThreads, ManyAtOnceGetTheSameAnswers) {
         EXPECT_EQ(std::memcmp(mine.data(), hits[0].data(), mine.size() * sizeof(Hit)), 0);
 }
 
-TEST(EmbreeTracerThreads, TheCallersDenormalsSurvive) {
+TEST_P(TracerThreads, TheCallersDenormalsSurvive) {
     TestScene s;
     s.add(quad());
-    shoot(*s.trace(), rayAlong({0, 1, 0}, {0, -1, 0}));
+    shoot(*trace(GetParam(), s), rayAlong({0, 1, 0}, {0, -1, 0}));
     volatile float tiny = std::numeric_limits<float>::min();
     EXPECT_GT(tiny * 0.5f, 0.0f);
 }

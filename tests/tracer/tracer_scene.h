@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "probegi/tracer.h"
+#include "support/tracers.h"
 
 namespace probegi::test {
 
@@ -38,12 +39,16 @@ struct TestScene {
     void add(Primitive primitive, const glm::mat4& toWorld = glm::mat4(1.0f)) {
         place(addMesh(std::move(primitive)), toWorld);
     }
-    std::unique_ptr<Tracer> trace(int threads = 1) const {
-        const Result<void> valid = validate(scene);
-        EXPECT_TRUE(valid) << valid.error().message;
-        return makeEmbreeTracer(makeContext(threads), scene, pose).value();
-    }
 };
+
+/// A scene's tracer, by the maker under test.
+inline std::unique_ptr<Tracer> trace(const TracerMaker& maker, const TestScene& s, int threads = 1) {
+    const Result<void> valid = validate(s.scene);
+    EXPECT_TRUE(valid) << valid.error().message;
+    auto tracer = maker.make(makeContext(threads), s.scene, s.pose);
+    if (!tracer) throw std::runtime_error(tracer.error().message);  // fails the test
+    return std::move(*tracer);
+}
 
 /// One ray, asked everything.
 struct Shot {

@@ -43,10 +43,13 @@ std::size_t escapes(const Tracer& tracer, std::size_t batches, const Aim& aim) {
 
 }  // namespace
 
-TEST(Watertight, AMillionRandomRays) {
+class TracerWatertight : public EveryTracer {};
+PROBEGI_ON_EVERY_TRACER(TracerWatertight);
+
+TEST_P(TracerWatertight, AMillionRandomRays) {
     for (const bool instanced : {false, true}) {
         const Room room(instanced);
-        const auto tracer = room.s.trace();
+        const auto tracer = trace(GetParam(), room.s);
         std::mt19937 random(22);
         std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
         const std::size_t lost = escapes(*tracer, 128, [&](std::vector<Ray>& rays) {
@@ -63,9 +66,9 @@ namespace {
 
 /// Escapes of rays aimed at points of edges: `along` gives the share of the way from one vertex to the next.
 template <class Along>
-std::size_t escapesAtEdges(bool instanced, std::size_t batches, Along along) {
+std::size_t escapesAtEdges(const TracerMaker& maker, bool instanced, std::size_t batches, Along along) {
     const Room room(instanced);
-    const auto tracer = room.s.trace();
+    const auto tracer = trace(maker, room.s);
     const std::vector<std::uint32_t>& indices = room.s.scene.meshes[0].primitives[0].indices;
     std::mt19937 random(23);
     std::uniform_int_distribution<std::size_t> pick(0, indices.size() / 3 - 1);
@@ -81,24 +84,24 @@ std::size_t escapesAtEdges(bool instanced, std::size_t batches, Along along) {
 
 }  // namespace
 
-TEST(Watertight, RaysAtEdges) {
+TEST_P(TracerWatertight, RaysAtEdges) {
     std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
     for (const bool instanced : {false, true})
-        EXPECT_EQ(escapesAtEdges(instanced, 64, uniform), 0u) << (instanced ? "instanced" : "merged");
+        EXPECT_EQ(escapesAtEdges(GetParam(), instanced, 64, uniform), 0u) << (instanced ? "instanced" : "merged");
 }
 
-TEST(Watertight, RaysAtVerticesHardlyEverEscape) {
+TEST_P(TracerWatertight, RaysAtVerticesHardlyEverEscape) {
     // Embree's edge tests agree between neighbours but not around a vertex: of rays aimed exactly at one, 0.14 % were
     // lost (16 % without the robust flag, which also lost 1.8 % at edges). A random ray does not meet a vertex.
     for (const bool instanced : {false, true}) {
-        const std::size_t lost = escapesAtEdges(instanced, 32, [](std::mt19937&) { return 0.0f; });
+        const std::size_t lost = escapesAtEdges(GetParam(), instanced, 32, [](std::mt19937&) { return 0.0f; });
         EXPECT_LT(double(lost), 0.003 * 32 * kBatch) << (instanced ? "instanced" : "merged");
     }
 }
 
-TEST(Watertight, CoherentRowsOfRays) {
+TEST_P(TracerWatertight, CoherentRowsOfRays) {
     const Room room(false);
-    const auto tracer = room.s.trace();
+    const auto tracer = trace(GetParam(), room.s);
     std::mt19937 random(24);
     const std::size_t lost = escapes(*tracer, 64, [&](std::vector<Ray>& rays) {
         const glm::vec3 origin = room.inWorld(randomPoint(random, 0.95f));

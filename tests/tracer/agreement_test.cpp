@@ -1,0 +1,209 @@
+// Every tracer against Embree: a million random rays in each built-in scene and in Sponza.
+#include <cmath>
+
+#include "probegi/builtin_scenes.h"
+#include "probegi/io.h"
+#include "support/scenes.h"
+#include "tracer/tracer_scene.h"
+
+namespace probegi::test {
+
+namespace {
+
+constexpr std::size_t kRays = 1'000'000;
+constexpr double kRelative = 1e-4;      // how closely distances agree
+constexpr float kBeside = 1e-4f;        // radians within which an edge explains another answer
+constexpr double kMostOutliers = 1e-5;  // share of the rays
+
+struct World {
+    Scene scene;
+    ScenePose pose;
+    std::unique_ptr<Tracer> tracer, reference;
+
+    World(const TracerMaker& maker, Scene own) : scene(std::move(own)), pose(poseAt(scene)) {
+        const Context context = makeContext(2);
+        auto made = maker.make(context, scene, pose);
+        if (!made) throw std::runtime_error(made.error().message);  // fails the test
+        tracer = std::move(*made);
+        reference = makeEmbreeTracer(context, scene, pose).value();
+    }
+};
+
+/// Rays from anywhere in the bounds in all directions, as long as a share of the scene's size.
+std::vector<Ray> randomRays(const Bounds& bounds, std::size_t count) {
+    std::mt19937 random(51);
+    std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+    std::vector<Ray> rays(count);
+    for (Ray& ray : rays) {
+        const float x = unit(random), y = unit(random), z = unit(random);
+        ray = rayAlong(bounds.lower + glm::vec3(x, y, z) * bounds.size(), randomDirection(random));
+    }
+    return rays;
+}
+
+bool sameDistance(const Hit& a, const Hit& b, double relative) {
+    if (a.valid() != b.valid()) return false;
+    return !a.valid() || std::abs(double(a.distance) - b.distance) <= relative * std::max(1.0f, b.distance);
+}
+
+/// The ray and others a little beside it.
+std::vector<Ray> bundle(const Ray& ray) {
+    const glm::vec3 axis = std::abs(ray.direction.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+    const glm::vec3 u = glm::normalize(glm::cross(ray.direction, axis)), v = glm::cross(ray.direction, u);
+    std::vector<Ray> rays{ray};
+    for (int i = 0; i < 32; ++i) {
+        const float angle = 0.7853981f * float(i), radius = kBeside * (i < 16 ? 1.0f : 0.2f);
+        const glm::vec3 aside = std::cos(angle) * u + std::sin(angle) * v;
+        Ray beside = ray;
+        // Turned, and shifted: an edge near the origin is passed by a shift.
+        if (i % 16 < 8)
+            beside.direction = glm::normalize(ray.direction + radius * aside);
+        else
+            beside.origin += radius * aside;
+        rays.push_back(beside);
+    }
+    return rays;
+}
+
+/// Whether the reference gives the other answer too, for a ray beside this one: then both are right.
+bool explained(const Tracer& reference, const Ray& ray, const Hit& answer) {
+    const std::vector<Ray> beside = bundle(ray);
+    std::vector<Hit> hits(beside.size());
+    reference.closestHits(beside, hits);
+    for (const Hit& hit : hits)
+        if (sameDistance(answer, hit, 10 * kRelative)) return true;
+    return false;
+}
+
+bool occlusionExplained(const Tracer& reference, const Ray& ray, bool answer) {
+    for (const float length : {1.0f - 1e-4f, 1.0f, 1.0f + 1e-4f}) {
+        std::vector<Ray> beside = bundle(ray);
+        for (Ray& r : beside) r.far *= length;
+        std::vector<std::uint8_t> blocked(beside.size());
+        reference.occluded(beside, blocked);
+        for (const std::uint8_t b : blocked)
+            if ((b == 1) == answer) return true;
+    }
+    return false;
+}
+
+void expectSameHits(const World& world, const std::vector<Ray>& rays) {
+    std::vector<Hit> own(rays.size()), reference(rays.size());
+    world.tracer->closestHits(rays, own);
+    world.reference->closestHits(rays, reference);
+    std::size_t outliers = 0, hits = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        hits += reference[i].valid() ? 1 : 0;
+        if (sameDistance(own[i], reference[i], kRelative)) continue;
+        ++outliers;
+        EXPECT_TRUE(explained(*world.reference, rays[i], own[i]))
+            << "ray " << i << ": " << own[i].distance << " instead of " << reference[i].distance;
+    }
+    EXPECT_GT(hits, rays.size() / 10);
+    EXPECT_LT(double(outliers), kMostOutliers * double(rays.size()));
+    testing::Test::RecordProperty("outliers", std::to_string(outliers));
+}
+
+void expectSameOcclusion(const World& world, std::vector<Ray> rays) {
+    std::mt19937 random(52);
+    std::uniform_real_distribution<float> share(0.02f, 0.5f);
+    const float size = glm::length(world.pose.bounds.size());
+    for (Ray& ray : rays) ray.far = share(random) * size;
+    std::vector<std::uint8_t> own(rays.size()), reference(rays.size());
+    world.tracer->occluded(rays, own);
+    world.reference->occluded(rays, reference);
+    std::size_t outliers = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (own[i] == reference[i]) continue;
+        ++outliers;
+        EXPECT_TRUE(occlusionExplained(*world.reference, rays[i], own[i] == 1)) << "ray " << i;
+    }
+    EXPECT_LT(double(outliers), kMostOutliers * double(rays.size()));
+    testing::Test::RecordProperty("occlusionOutliers", std::to_string(outliers));
+}
+
+void expectAgreement(const World& world) {
+    const Bounds bounds = world.tracer->bounds(), reference = world.reference->bounds();
+    expectNear(bounds.lower, reference.lower, 1e-4f * glm::length(reference.size()));
+    expectNear(bounds.upper, reference.upper, 1e-4f * glm::length(reference.size()));
+    const std::vector<Ray> rays = randomRays(reference, kRays);
+    expectSameHits(world, rays);
+    expectSameOcclusion(world, rays);
+}
+
+/// Closed form for what counts as explained: the square of quad(), whose edges are known.
+TEST(Explanation, isAnEdgeNearbyAndNothingElse) {
+    TestScene s;
+    s.add(quad());
+    const auto reference = makeEmbreeTracer(makeContext(), s.scene, s.pose).value();
+    const auto answerOf = [](float distance) {
+        Hit hit;
+        hit.distance = distance;
+        hit.primitive = 0;
+        return hit;
+    };
+    const auto down = [](float x) { return rayAlong({x, 1, 0.3f}, {0, -1, 0}); };
+    EXPECT_TRUE(explained(*reference, down(0.2f), answerOf(1.0f)));
+    EXPECT_FALSE(explained(*reference, down(0.2f), answerOf(1.01f)));
+    EXPECT_FALSE(explained(*reference, down(0.2f), Hit()));
+    EXPECT_TRUE(explained(*reference, down(0.99995f), Hit()));
+    EXPECT_TRUE(explained(*reference, down(1.00005f), answerOf(1.0f)));
+    EXPECT_FALSE(explained(*reference, down(0.999f), Hit()));
+    EXPECT_FALSE(explained(*reference, down(1.001f), answerOf(1.0f)));
+    Ray touching = down(0.2f);
+    touching.far = 1.0f;
+    EXPECT_TRUE(occlusionExplained(*reference, touching, true));
+    EXPECT_TRUE(occlusionExplained(*reference, touching, false));
+    touching.far = 1.1f;
+    EXPECT_FALSE(occlusionExplained(*reference, touching, false));
+}
+
+}  // namespace
+
+class TracerAgreement : public EveryTracer {};
+PROBEGI_ON_EVERY_TRACER(TracerAgreement);
+
+TEST_P(TracerAgreement, inEveryBuiltinScene) {
+    for (const BuiltinScene& builtin : builtinScenes()) {
+        SCOPED_TRACE(std::string(builtin.name));
+        expectAgreement(World(GetParam(), makeBuiltinScene(builtin.name).value()));
+    }
+}
+
+TEST_P(TracerAgreement, inSponza) {
+    auto loaded = loadScene(scenesFolder() / "sponza" / "sponza.glb");
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    expectAgreement(World(GetParam(), std::move(loaded->scene)));
+}
+
+// What a hit looks like is the same as well, where both hit the same place.
+TEST_P(TracerAgreement, surfacesLookTheSame) {
+    auto loaded = loadScene(scenesFolder() / "sponza" / "sponza.glb");
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    const World world(GetParam(), std::move(loaded->scene));
+    const std::vector<Ray> rays = randomRays(world.pose.bounds, 50000);
+    std::vector<Hit> own(rays.size()), reference(rays.size());
+    std::vector<Surface> ownSurfaces(rays.size()), surfaces(rays.size());
+    world.tracer->closestHits(rays, own);
+    world.tracer->surfaces(rays, own, ownSurfaces);
+    world.reference->closestHits(rays, reference);
+    world.reference->surfaces(rays, reference, surfaces);
+    std::size_t compared = 0, differing = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (!reference[i].valid() || !sameDistance(own[i], reference[i], kRelative)) continue;
+        ++compared;
+        const Surface &a = ownSurfaces[i], &b = surfaces[i];
+        const bool same =
+            a.backface == b.backface && a.material == b.material && glm::distance(a.position, b.position) < 2e-3f &&
+            glm::dot(a.geometricNormal, b.geometricNormal) > 0.9999f &&
+            glm::dot(a.shadingNormal, b.shadingNormal) > 0.999f && glm::distance(a.albedo, b.albedo) < 0.01f &&
+            std::abs(a.roughness - b.roughness) < 0.01f && std::abs(a.metallic - b.metallic) < 0.01f;
+        differing += same ? 0 : 1;
+    }
+    EXPECT_GT(compared, rays.size() / 2);
+    // Two surfaces in one place, or a texel's edge within rounding.
+    EXPECT_LT(double(differing), 2e-3 * double(compared));
+    RecordProperty("differing", std::to_string(differing));
+}
+
+}  // namespace probegi::test
