@@ -1,15 +1,14 @@
 #include "bench_table.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <cmath>
-#include <ctime>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "machine.h"
 #include "render_stats.h"
+#include "text_table.h"
 
 namespace probegi::tool {
 
@@ -132,26 +131,6 @@ std::string decimal(std::optional<double> value) {
     return *value >= 100 ? fmt::format("{:.0f}", *value) : fmt::format("{:.3f}", *value);
 }
 
-// Cells of equal width per column; the first row is the header.
-std::string table(const std::vector<std::vector<std::string>>& cells) {
-    std::vector<std::size_t> widths(cells.front().size(), 3);
-    for (const auto& row : cells)
-        for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
-    std::string text;
-    for (std::size_t r = 0; r < cells.size(); ++r) {
-        for (std::size_t c = 0; c < widths.size(); ++c) text += fmt::format("| {:<{}} ", cells[r][c], widths[c]);
-        text += "|\n";
-        if (r > 0) continue;
-        for (const std::size_t width : widths) text += fmt::format("|{:-<{}}", "", width + 2);
-        text += "|\n";
-    }
-    return text;
-}
-
-std::string today() {
-    return fmt::format("{:%Y-%m-%d}", fmt::localtime(std::time(nullptr)));
-}
-
 }  // namespace
 
 std::string BenchRow::verdict() const {
@@ -187,14 +166,14 @@ std::string benchMarkdown(const BenchResult& result, const std::string& sceneNam
         cells.push_back({row.name, row.figure, decimal(row.ratio), row.against,
                          row.goal ? fmt::format("{} {:g}", row.atLeast ? ">=" : "<=", *row.goal) : std::string(),
                          row.verdict(), row.papers});
-    text += table(cells) + "\n" +
+    text += markdownTable(cells) + "\n" +
             fmt::format(fmt::runtime(kNotes), result.rounds.size(), result.rays() * 1e-6, result.probes);
     if (result.growth.empty()) return text;
     cells = {{"probes", "rays a probe", "update", "ns a probe and ray"}};
     for (const BenchGrowth& g : result.growth)
         cells.push_back({std::to_string(g.probes), std::to_string(g.rays), milliseconds(median(g.ms)),
                          fmt::format("{:.0f}", nanosecondsPerRay(g))});
-    return text + "\n" + table(cells);
+    return text + "\n" + markdownTable(cells);
 }
 
 std::string benchJson(const BenchResult& result, const std::string& sceneName) {

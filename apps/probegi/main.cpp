@@ -50,6 +50,7 @@ int run(int argc, char** argv) {
     addReportCommand(app, exitCode);
     addCompareCommand(app, exitCode);
     addInfoCommand(app, exitCode);
+    addDevicesCommand(app, exitCode);
     addBenchCommand(app, exitCode);
     try {
         app.parse(argc, argv);

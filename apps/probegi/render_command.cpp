@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "aov.h"
+#include "backend.h"
 #include "commands.h"
 #include "output.h"
 #include "parse.h"
@@ -22,6 +23,7 @@ constexpr int kDefaultReferenceSamples = 64;
 
 struct RenderOptions {
     SceneOptions scene;
+    BackendOptions backend;
     std::string output, stats;
     Method method = Method::ddgi;
     Aov aov = Aov::color;
@@ -44,6 +46,7 @@ would send back.
 
 Example: probegi render builtin:cornell -o cornell.png
 Example: probegi render sponza.glb -o sponza.exr --camera nave --sky 0.3,0.4,0.6 --size 1920x1080 --stats stats.json
+Example: probegi render builtin:house -o house.png --backend vulkan
 Example: probegi render builtin:house -o truth.png --method reference --time 30)";
 
 PictureDesc pictureDesc(const RenderOptions& options, const LoadedSetup& setup) {
@@ -51,7 +54,7 @@ PictureDesc pictureDesc(const RenderOptions& options, const LoadedSetup& setup) 
     return {setup.camera, size.width, size.height, options.antialias, options.diffuseOnly};
 }
 
-Result<std::optional<Field>> makeField(const Context& context, const Tracer& tracer, const LoadedSetup& setup,
+Result<std::optional<Field>> makeField(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
                                        const RenderOptions& options, RenderStats& stats) {
     if (options.method == Method::none) return std::nullopt;
     FieldDesc desc;
@@ -59,7 +62,7 @@ Result<std::optional<Field>> makeField(const Context& context, const Tracer& tra
     desc.raysPerProbe = options.rays;
     desc.seed = options.seed;
     desc.guard = options.method == Method::leaky ? LeakGuard::none : LeakGuard::moments;
-    auto field = Field::create(context, desc);
+    auto field = backend.makeField(desc);
     if (!field) return tl::unexpected(field.error());
     stats.probes = probeCount(desc.grid);
     stats.raysPerProbe = desc.raysPerProbe;
@@ -79,18 +82,17 @@ Result<std::optional<Field>> makeField(const Context& context, const Tracer& tra
     return std::move(*field);
 }
 
-Result<Picture> renderWithField(const Context& context, const Tracer& tracer, const LoadedSetup& setup,
+Result<Picture> renderWithField(const Context&, const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
                                 const RenderOptions& options, RenderStats& stats) {
-    const auto field = makeField(context, tracer, setup, options, stats);
+    const auto field = makeField(backend, tracer, setup, options, stats);
     if (!field) return tl::unexpected(field.error());
-    auto rendered =
-        renderPicture(context, tracer, setup.lighting, *field ? &**field : nullptr, pictureDesc(options, setup));
+    auto rendered = backend.render(tracer, setup.lighting, *field ? &**field : nullptr, pictureDesc(options, setup));
     if (!rendered) return tl::unexpected(rendered.error());
     stats.pictureMs = rendered->times.total;
     return std::move(rendered->picture);
 }
 
-Result<Picture> renderReference(const Context& context, const Tracer& tracer, const LoadedSetup& setup,
+Result<Picture> renderReference(const Context& context, const Backend&, const Tracer& tracer, const LoadedSetup& setup,
                                 const RenderOptions& options, RenderStats& stats) {
     const auto pathTracer = PathTracer::create(context, *setup.scene, setup.pose, tracer, setup.lighting);
     if (!pathTracer) return tl::unexpected(pathTracer.error());
@@ -113,6 +115,12 @@ void warnAboutUnusedOptions(const RenderOptions& options) {
         printWarning("--frames acts on --method ddgi and leaky only");
 }
 
+void checkOptions(const CLI::App& command, const RenderOptions& options) {
+    checkBackendOptions(command, options.backend);
+    if (options.method == Method::reference && options.backend.kind == BackendKind::vulkan)
+        throw CLI::ValidationError("--backend", "--method reference is path traced on the CPU only");
+}
+
 Result<void> render(const RenderOptions& options) {
     if (auto checked = checkOutput(options.output, pictureExtensions()); !checked) return checked;
     if (!options.stats.empty())
@@ -120,14 +128,16 @@ Result<void> render(const RenderOptions& options) {
     warnAboutUnusedOptions(options);
     const auto context = makeContext(options.scene.threads);
     if (!context) return tl::unexpected(context.error());
+    const auto backend = openBackend(*context, options.backend);
+    if (!backend) return tl::unexpected(backend.error());
     const auto setup = loadSetup(options.scene);
     if (!setup) return tl::unexpected(setup.error());
-    const auto tracer = makeEmbreeTracer(*context, *setup->scene, setup->pose);
+    const auto tracer = (*backend)->makeTracer(*setup->scene, setup->pose);
     if (!tracer) return tl::unexpected(tracer.error());
 
     RenderStats stats;
     const auto draw = options.method == Method::reference ? renderReference : renderWithField;
-    const auto picture = draw(*context, **tracer, *setup, options, stats);
+    const auto picture = draw(*context, **backend, **tracer, *setup, options, stats);
     if (!picture) return tl::unexpected(picture.error());
     const ToneMap toneMap{setup->exposure, options.filmic};
     if (auto written = writeAov(options.output, *picture, options.aov, toneMap); !written) return written;
@@ -193,9 +203,11 @@ void addRenderCommand(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<RenderOptions>();
     addPictureOptions(*command, *options);
     addMethodOptions(*command, *options);
+    addBackendOptions(*command, options->backend);
     addSceneOptions(*command, options->scene);
     command->footer(kFooter);
-    command->callback([options, &exitCode] {
+    command->callback([options, command, &exitCode] {
+        checkOptions(*command, *options);
         if (const auto done = render(*options); !done) exitCode = printError(done.error());
     });
 }
