@@ -6,7 +6,7 @@ if(NOT Vulkan_FOUND OR NOT GLSLC)
     message(FATAL_ERROR "The Vulkan backend needs the Vulkan headers, 1.3 or newer, and glslc (Debian: libvulkan-dev glslc). "
         "Install them, or leave the backend out with -DPROBEGI_VULKAN=OFF.")
 endif()
-set(PROBEGI_GLSLC_FLAGS --target-env=vulkan1.3 -std=460core -O -Werror -I${PROJECT_SOURCE_DIR}/src)
+set(PROBEGI_GLSLC_FLAGS --target-env=vulkan1.2 -std=460core -O -Werror -I${PROJECT_SOURCE_DIR}/src)
 
 # One shader to one list of words, as the inside of a C initialiser. Appends to `words` and `entries` of the caller.
 function(probegi_shader_variant shader name)
