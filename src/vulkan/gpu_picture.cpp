@@ -83,7 +83,7 @@ private:
         const auto pass = [&](const char* name, const std::string& shader, std::size_t threads) {
             {
                 const PassScope scope(recorder, device, &*m_profiler, name);
-                recorder.dispatchOver(shader, threads, 64);
+                recorder.dispatchOver(shader, threads);
             }
             recorder.computeToCompute();
         };
@@ -160,7 +160,7 @@ Result<std::vector<std::uint8_t>> toneMapImage(const Device& device, const HdrIm
         exchange.run(
             [&](const Recorder& recorder) {
                 recorder.push(push);
-                recorder.dispatchOver("tone_map", push.count, 64);
+                recorder.dispatchOver("tone_map", push.count);
             },
             pixels.size() * 4);
         const auto bytes = exchange.results<std::uint8_t>();

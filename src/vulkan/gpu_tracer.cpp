@@ -68,7 +68,7 @@ void GpuTracer::closestHits(std::span<const Ray> rays, std::span<Hit> hits) cons
             [&](const Recorder& recorder) {
                 recorder.bindScene(m_scene.impl().set());
                 recorder.push(push);
-                recorder.dispatchOver("trace_rays" + m_scene.impl().shaderSuffix(), count, 64);
+                recorder.dispatchOver("trace_rays" + m_scene.impl().shaderSuffix(), count);
             },
             count * sizeof(Hit));
         std::copy_n(m_exchange.results<Hit>().begin(), count, hits.begin() + std::ptrdiff_t(first));
@@ -89,7 +89,7 @@ void GpuTracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> bloc
             [&](const Recorder& recorder) {
                 recorder.bindScene(m_scene.impl().set());
                 recorder.push(push);
-                recorder.dispatchOver("trace_occlusion" + m_scene.impl().shaderSuffix(), count, 64);
+                recorder.dispatchOver("trace_occlusion" + m_scene.impl().shaderSuffix(), count);
             },
             count * sizeof(std::uint32_t));
         const auto results = m_exchange.results<std::uint32_t>();
@@ -110,7 +110,7 @@ void GpuTracer::surfaces(std::span<const Ray> rays, std::span<const Hit> hits, s
             [&](const Recorder& recorder) {
                 recorder.bindScene(m_scene.impl().set());
                 recorder.push(push);
-                recorder.dispatchOver("surfaces", count, 64);
+                recorder.dispatchOver("surfaces", count);
             },
             count * sizeof(kernels::GpuSurface));
         const auto results = m_exchange.results<kernels::GpuSurface>();

@@ -29,10 +29,10 @@ public:
                                 dispatcher());
         m_commands.dispatch(x, y, z, dispatcher());
     }
-    /// Runs a pass over `count` threads in groups of `groupSize`. More groups than one axis may have are spread over
+    /// Runs a pass over `count` threads. More groups than one axis may have are spread over
     /// two: shaders find their number with globalIndex() of shaders/common.glsl.
-    void dispatchOver(const std::string& shader, std::uint64_t count, std::uint32_t groupSize) const {
-        const std::uint64_t groups = (count + groupSize - 1) / groupSize;
+    void dispatchOver(const std::string& shader, std::uint64_t count) const {
+        const std::uint64_t groups = (count + kGroupSize - 1) / kGroupSize;
         const std::uint64_t rows = (groups + kGroupsPerRow - 1) / kGroupsPerRow;
         if (groups) dispatch(shader, std::uint32_t(rows > 1 ? kGroupsPerRow : groups), std::uint32_t(rows));
     }
@@ -84,6 +84,7 @@ public:
     const vk::raii::DeviceDispatcher& dispatcher() const noexcept { return *m_device.device.getDispatcher(); }
     const PassLayout& layout() const noexcept { return m_device.pipelines->layout(); }
 
+    static constexpr std::uint32_t kGroupSize = 64;  // of shaders/common.glsl
     static constexpr std::uint32_t kGroupsPerRow = 32768;
     static constexpr vk::AccessFlags2 kShaderAccess =
         vk::AccessFlagBits2::eShaderRead | vk::AccessFlagBits2::eShaderWrite;

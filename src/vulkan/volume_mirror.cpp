@@ -14,11 +14,22 @@ std::size_t texelCount(const Image& image) {
     return std::size_t(image.size().width) * image.size().height * image.layers();
 }
 
+void changeLayout(const Recorder& recorder, const Image& image, vk::ImageLayout from, vk::ImageLayout to) {
+    const auto access = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite;
+    const vk::ImageMemoryBarrier2 barrier(vk::PipelineStageFlagBits2::eAllCommands, access,
+                                          vk::PipelineStageFlagBits2::eAllCommands, access, from, to,
+                                          VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, image.handle(),
+                                          {vk::ImageAspectFlagBits::eColor, 0, 1, 0, VK_REMAINING_ARRAY_LAYERS});
+    recorder.commands().pipelineBarrier2(vk::DependencyInfo().setImageMemoryBarriers(barrier), recorder.dispatcher());
+}
+
 void copyImage(const Recorder& recorder, const Image& image, const Buffer& to) {
+    changeLayout(recorder, image, vk::ImageLayout::eGeneral, vk::ImageLayout::eTransferSrcOptimal);
     const vk::BufferImageCopy region(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, image.layers()}, {},
                                      vk::Extent3D(image.size(), 1));
-    recorder.commands().copyImageToBuffer(image.handle(), vk::ImageLayout::eGeneral, to.handle(), region,
+    recorder.commands().copyImageToBuffer(image.handle(), vk::ImageLayout::eTransferSrcOptimal, to.handle(), region,
                                           recorder.dispatcher());
+    changeLayout(recorder, image, vk::ImageLayout::eTransferSrcOptimal, vk::ImageLayout::eGeneral);
 }
 
 // Bilinear between the four texels around a point in texel units, which lies within the border.
@@ -43,9 +54,9 @@ VolumeMirror::VolumeMirror(const VolumePasses& passes) : m_passes(passes), m_des
     const Buffer irradiance = readback(irradianceTexels * 8), visibility = readback(visibilityTexels * 4);
     const Buffer states = readback(passes.states().bytes());
     submitAndWait(passes.device(), [&](const Recorder& recorder) {
-        recorder.orderAll();
         copyImage(recorder, passes.irradiance(), irradiance);
         copyImage(recorder, passes.visibility(), visibility);
+        recorder.orderAll();
         recorder.copy(passes.states(), states, passes.states().bytes());
         recorder.transferToHost();
     });

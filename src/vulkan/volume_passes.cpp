@@ -174,7 +174,7 @@ void VolumePasses::recordWeights(const Recorder& recorder, const UpdateFrame& fr
                                        .irradianceSize = frame.desc.irradianceTexels,
                                        .visibilitySize = frame.desc.visibilityTexels,
                                        .visibilityExponent = frame.desc.visibilityExponent});
-    recorder.dispatchOver("blend_weights", m_layout.irradianceTexels + m_layout.visibilityTexels, 32);
+    recorder.dispatchOver("blend_weights", m_layout.irradianceTexels + m_layout.visibilityTexels);
 }
 
 void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
@@ -191,12 +191,12 @@ void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& fram
                                      .bounces = frame.bounces ? 1 : 0});
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "trace");
-        recorder.dispatchOver("trace_probes" + tracer, rays, 64);
+        recorder.dispatchOver("trace_probes" + tracer, rays);
     }
     recorder.computeToCompute();
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "shade");
-        recorder.dispatchOver("shade_probes" + tracer, rays, 64);
+        recorder.dispatchOver("shade_probes" + tracer, rays);
     }
     recorder.computeToCompute();
 }
@@ -263,7 +263,7 @@ void VolumePasses::recordQuery(const Recorder& recorder, const FieldDesc& desc, 
     recorder.bindVolume(set());
     recorder.push(
         kernels::QueryPush{.queries = addressWords(queries), .irradiance = addressWords(irradiance), .count = count});
-    recorder.dispatchOver("query", count, 64);
+    recorder.dispatchOver("query", count);
 }
 
 }  // namespace probegi::vulkan

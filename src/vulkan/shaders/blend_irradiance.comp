@@ -9,7 +9,6 @@
 #include "kernels/octahedral_texel.h"
 #include "kernels/probe_texel.h"
 
-layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kExcludeBackfaces = 0;  // BackfaceRule::excluded
 layout(push_constant, scalar) uniform Push {
     BlendPush push;

@@ -8,7 +8,6 @@
 #include "kernels/octahedral_texel.h"
 #include "kernels/probe_texel.h"
 
-layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
     BlendPush push;
 };

@@ -7,7 +7,6 @@
 #include "kernels/octahedral_texel.h"
 #include "kernels/probe_blend.h"
 
-layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform Push {
     WeightsPush push;
 };

@@ -17,6 +17,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Vec3s {
     vec3 at[];
 };
 
+// All passes have groups of this size (Recorder::dispatchOver).
+layout(local_size_x = 64) in;
+
 // Number of this thread where Recorder::dispatchOver() spread the groups over two axes.
 uint globalIndex() {
     return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;

@@ -5,7 +5,6 @@
 
 #include "kernels/bsdf.h"
 
-layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
     PicturePush push;
 };

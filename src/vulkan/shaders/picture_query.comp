@@ -2,7 +2,6 @@
 #include "picture.glsl"
 #include "volume.glsl"
 
-layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
     PicturePush push;
 };

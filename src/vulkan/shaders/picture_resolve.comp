@@ -1,7 +1,6 @@
 // Means over the samples of each pixel: the layers of probegi::Picture, one after the other, in its order.
 #include "picture.glsl"
 
-layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
     PicturePush push;
 };

@@ -3,7 +3,6 @@
 
 #include "kernels/gpu_passes.h"
 
-layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
     QueryPush push;
 };

@@ -8,7 +8,6 @@
 
 #include "kernels/bounce.h"
 
-layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
     TracePush push;
 };

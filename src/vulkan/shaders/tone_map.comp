@@ -4,7 +4,6 @@
 #include "kernels/gpu_passes.h"
 #include "kernels/tone_map.h"
 
-layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
     ToneMapPush push;
 };

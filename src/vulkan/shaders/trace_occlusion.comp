@@ -3,7 +3,6 @@
 #include "rays.glsl"
 #include "scene_set.glsl"
 
-layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
     RaysPush push;
 };

@@ -5,7 +5,6 @@
 #include "scene_set.glsl"
 #include "volume.glsl"
 
-layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
     TracePush push;
 };
