@@ -117,7 +117,7 @@ vec3 probegiIrradiance(vec3 point, vec3 normal, vec3 toViewer) {
         const ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
         const ivec3 cell = ivec3(base) + corner;
         const vec3 toProbe = probePlace(cell, probegiVolume.origin, probegiVolume.spacing) - position;
-        const float cosToProbe = dot(toProbe, normal) / (length(toProbe) + kNoLength);
+        const float cosToProbe = cosineToProbe(dot(toProbe, normal), length(toProbe), probegiVolume.minSpacing);
         const float trilinear = trilinearFactor(float(corner.x), alpha.x) * trilinearFactor(float(corner.y), alpha.y) *
                                 trilinearFactor(float(corner.z), alpha.z);
         const float weight = crushWeight(backfaceWeight(cosToProbe) * probegiGuard(cell, bias - toProbe)) * trilinear *
