@@ -54,8 +54,9 @@ struct Allocation {
 };
 
 /// An engine's memory allocator. Empty functions: the library calls vkAllocateMemory for each buffer and image, about
-/// a dozen for a volume and two dozen for a scene. Memory for buffers must be allocated with
-/// VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT.
+/// a dozen for a volume and two dozen for a scene. All memory must be allocated with
+/// VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, and buffers and images share it: pieces of one VkDeviceMemory keep
+/// bufferImageGranularity apart. `allocate` says why it fails by its result, and throws nothing. Give both or neither.
 struct Allocator {
     std::function<VkResult(const VkMemoryRequirements&, MemoryUse, Allocation&)> allocate{};
     std::function<void(const Allocation&)> free{};
@@ -228,7 +229,7 @@ inline constexpr std::uint32_t kQueryBindings = 4;
 class ProbeVolume {
 public:
     /// Errors: invalidArgument (as Field::create), unsupported (an axis has more probes than the device's images have
-    /// texels for), outOfMemory.
+    /// texels for, or the probes together have more than 2^31 - 1 rays), outOfMemory.
     static Result<ProbeVolume> create(const Device& device, const FieldDesc& desc);
     ProbeVolume(ProbeVolume&&) noexcept;
     ProbeVolume& operator=(ProbeVolume&&) noexcept;

@@ -19,11 +19,20 @@ Device::Impl::~Impl() {
 }
 
 void Device::Impl::finish(const Features& features, const std::filesystem::path& cacheFolder) {
+    // What enabled features and extensions promise, an instance of an older version or a thin loader may not deliver.
+    const auto& functions = *device.getDispatcher();
+    if (!functions.vkCmdPipelineBarrier2 || !functions.vkCmdWriteTimestamp2 || !functions.vkGetBufferDeviceAddress)
+        throw Failure(ErrorCode::unsupported,
+                      "the device does not offer the functions of Vulkan 1.3; make its instance with "
+                      "VkApplicationInfo::apiVersion 1.3, or use the CPU backend");
+    debugUtilsEnabled &= functions.vkSetDebugUtilsObjectNameEXT && functions.vkCmdBeginDebugUtilsLabelEXT &&
+                         functions.vkCmdEndDebugUtilsLabelEXT;
     const auto properties = physical.getProperties();
     limits = properties.limits;
     memoryProperties = physical.getMemoryProperties();
     timestampBits = physical.getQueueFamilyProperties()[family].timestampValidBits;
-    rayQuery = features.canRayQuery();
+    rayQuery = features.canRayQuery() && functions.vkCreateAccelerationStructureKHR &&
+               functions.vkCmdBuildAccelerationStructuresKHR;
     if (rayQuery)
         scratchAlignment =
             physical
@@ -36,7 +45,10 @@ void Device::Impl::finish(const Features& features, const std::filesystem::path&
 }
 
 void Device::Impl::setName(vk::ObjectType type, std::uint64_t handle, const char* name) const {
-    if (debugUtilsEnabled) device.setDebugUtilsObjectNameEXT(vk::DebugUtilsObjectNameInfoEXT(type, handle, name));
+    if (!debugUtilsEnabled) return;
+    // A name that could not be given is no reason to fail.
+    const VkDebugUtilsObjectNameInfoEXT named = vk::DebugUtilsObjectNameInfoEXT(type, handle, name);
+    device.getDispatcher()->vkSetDebugUtilsObjectNameEXT(*device, &named);
 }
 
 const DeviceInfo& Device::info() const noexcept {

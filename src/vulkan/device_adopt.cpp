@@ -16,6 +16,9 @@ Result<void> checkHandles(const AdoptDesc& desc) {
                          : !desc.device         ? "device"
                          : !desc.createInfo     ? "createInfo"
                                                 : nullptr;
+    if (bool(desc.allocator.allocate) != bool(desc.allocator.free))
+        return fail(ErrorCode::invalidArgument,
+                    "AdoptDesc::allocator has one of its two functions; give allocate and free, or neither");
     if (!absent) return {};
     return fail(ErrorCode::invalidArgument, fmt::format("AdoptDesc::{} is null; the engine's must be given", absent));
 }
@@ -38,7 +41,9 @@ Result<Device> Device::adopt(const Context& context, const AdoptDesc& desc) {
     if (auto ok = checkHandles(desc); !ok) return tl::unexpected(ok.error());
     return guarded("adopting a device", [&] {
         const PFN_vkGetInstanceProcAddr loader = desc.getInstanceProcAddr ? desc.getInstanceProcAddr : systemLoader();
-        if (!loader) throw Failure(ErrorCode::unsupported, "there is no Vulkan loader; give getInstanceProcAddr");
+        if (!loader || !loader(desc.instance, "vkGetDeviceProcAddr"))
+            throw Failure(ErrorCode::unsupported,
+                          "there is no Vulkan loader that knows the instance; give AdoptDesc::getInstanceProcAddr");
         auto impl = std::make_shared<Impl>(context, loader);
         impl->instance = vk::raii::Instance(impl->vulkan, desc.instance);
         impl->physical = vk::raii::PhysicalDevice(impl->instance, desc.physicalDevice);

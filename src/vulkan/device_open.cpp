@@ -84,16 +84,14 @@ std::string listed(const std::vector<DeviceInfo>& infos) {
 std::size_t findNamed(const std::vector<DeviceInfo>& infos, const std::string& wanted) {
     std::size_t index = 0;
     const auto parsed = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
-    if (parsed.ec == std::errc() && parsed.ptr == wanted.data() + wanted.size()) {
-        if (index < infos.size()) return index;
-    } else {
-        const auto lower = [](std::string text) {
-            for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
-            return text;
-        };
-        for (const DeviceInfo& info : infos)
-            if (lower(info.name).find(lower(wanted)) != std::string::npos) return std::size_t(info.index);
-    }
+    if (parsed.ec == std::errc() && parsed.ptr == wanted.data() + wanted.size() && index < infos.size()) return index;
+    const auto lower = [](std::string text) {
+        for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
+        return text;
+    };
+    // A number that is no index may be part of a name: "3090".
+    for (const DeviceInfo& info : infos)
+        if (lower(info.name).find(lower(wanted)) != std::string::npos) return std::size_t(info.index);
     throw Failure(ErrorCode::unsupported,
                   fmt::format("there is no Vulkan device '{}'; there are: {}", wanted, listed(infos)));
 }
@@ -148,7 +146,7 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, std::uint3
 
 Result<std::vector<DeviceInfo>> listDevices() {
     const PFN_vkGetInstanceProcAddr loader = systemLoader();
-    if (!loader) return fail(ErrorCode::unsupported, kNoLoader);
+    if (!loader || !loader(nullptr, "vkCreateInstance")) return fail(ErrorCode::unsupported, kNoLoader);
     return guarded("listing devices", [&] {
         const vk::raii::Context vulkan(loader);
         const vk::raii::Instance instance = makeInstance(vulkan, false, false);
@@ -161,7 +159,7 @@ Result<std::vector<DeviceInfo>> listDevices() {
 
 Result<Device> Device::open(const Context& context, const OpenDesc& desc) {
     const PFN_vkGetInstanceProcAddr loader = desc.getInstanceProcAddr ? desc.getInstanceProcAddr : systemLoader();
-    if (!loader) return fail(ErrorCode::unsupported, kNoLoader);
+    if (!loader || !loader(nullptr, "vkCreateInstance")) return fail(ErrorCode::unsupported, kNoLoader);
     return guarded("opening a device", [&] {
         auto impl = std::make_shared<Impl>(context, loader);
         impl->owned = true;

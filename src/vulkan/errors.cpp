@@ -4,6 +4,17 @@
 
 namespace probegi::vulkan {
 
+namespace {
+
+// Refusals that are about room, besides the two plain ones.
+bool meansNoMemory(vk::Result result) {
+    return result == vk::Result::eErrorTooManyObjects || result == vk::Result::eErrorMemoryMapFailed ||
+           result == vk::Result::eErrorOutOfPoolMemory || result == vk::Result::eErrorFragmentedPool ||
+           result == vk::Result::eErrorFragmentation || result == vk::Result::eErrorInvalidOpaqueCaptureAddress;
+}
+
+}  // namespace
+
 Error currentError(const char* doing) noexcept {
     try {
         throw;
@@ -23,11 +34,17 @@ Error currentError(const char* doing) noexcept {
     } catch (const vk::OutOfHostMemoryError&) {
         return {ErrorCode::outOfMemory, fmt::format("no memory left for {}", doing)};
     } catch (const vk::SystemError& error) {
+        if (meansNoMemory(vk::Result(error.code().value())))
+            return {ErrorCode::outOfMemory,
+                    fmt::format("the Vulkan driver has no room left for {}: {}", doing, error.what())};
         return {ErrorCode::unsupported, fmt::format("the Vulkan driver failed while {}: {}", doing, error.what())};
     } catch (const std::bad_alloc&) {
         return {ErrorCode::outOfMemory, fmt::format("no memory left for {}", doing)};
     } catch (const std::exception& error) {
         return {ErrorCode::unsupported, fmt::format("failed while {}: {}", doing, error.what())};
+    } catch (...) {
+        // Callbacks of an engine's may throw anything.
+        return {ErrorCode::unsupported, fmt::format("failed while {}", doing)};
     }
 }
 

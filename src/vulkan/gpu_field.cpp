@@ -52,6 +52,13 @@ GpuField::GpuField(const Context& context, const Device& device, const FieldDesc
     submitAndWait(device, [&](const Recorder& recorder) { m_passes.recordClear(recorder); });
 }
 
+template <class Body>
+auto GpuField::attempted(const char* doing, const Body& body) const {
+    auto result = guarded(doing, body);
+    if (!result) m_passes.forgetGuard();
+    return result;
+}
+
 const GpuLighting& GpuField::uploaded(const Lighting& lighting) const {
     if (m_lightingSource && sameLighting(*m_lightingSource, lighting)) return *m_lighting;
     m_lightingSource.reset();
@@ -95,16 +102,16 @@ UpdateTimes GpuField::updateOnGpu(const UpdateFrame& frame, const GpuTracer& tra
 
 Result<UpdateTimes> GpuField::update(const UpdateFrame& frame, std::span<const RayDatum> rayData) {
     const std::lock_guard lock(m_mutex);
-    return guarded("updating the field", [&] { return updateFrom(frame, rayData); });
+    return attempted("updating the field", [&] { return updateFrom(frame, rayData); });
 }
 
 Result<UpdateTimes> GpuField::update(const UpdateFrame& frame, const Tracer& tracer, const Lighting& lighting) {
     const auto* onGpu = dynamic_cast<const GpuTracer*>(&tracer);
     if (onGpu && &onGpu->device().impl() == &m_device.impl()) {
         const std::lock_guard lock(m_mutex);
-        return guarded("updating the field", [&] { return updateOnGpu(frame, *onGpu, lighting); });
+        return attempted("updating the field", [&] { return updateOnGpu(frame, *onGpu, lighting); });
     }
-    return guarded("updating the field", [&] {
+    return attempted("updating the field", [&] {
         const auto start = Clock::now();
         m_rayData.resize(m_passes.layout().probes * m_passes.layout().rays);
         BounceQuery bounces;
@@ -128,7 +135,7 @@ Result<UpdateTimes> GpuField::update(const UpdateFrame& frame, const Tracer& tra
 Result<void> GpuField::irradiance(const FieldDesc& desc, std::span<const FieldQuery> queries,
                                   std::span<glm::vec3> out) const {
     const std::lock_guard lock(m_mutex);
-    return guarded("querying the field", [&] {
+    return attempted("querying the field", [&] {
         m_queryPasses.clear();
         for (std::size_t first = 0; first < queries.size(); first += kQueriesPerPiece) {
             const std::size_t count = std::min(kQueriesPerPiece, queries.size() - first);

@@ -38,6 +38,9 @@ public:
 private:
     UpdateTimes updateOnGpu(const UpdateFrame& frame, const GpuTracer& tracer, const Lighting& lighting);
     UpdateTimes updateFrom(const UpdateFrame& frame, std::span<const RayDatum> rayData);
+    /// guarded(), for passes over the volume.
+    template <class Body>
+    auto attempted(const char* doing, const Body& body) const;
     /// Calls `read` with an up-to-date mirror; not a number where the GPU fails.
     template <class T, class Read>
     T mirrored(const T& failed, const Read& read) const noexcept;

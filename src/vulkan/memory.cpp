@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "vulkan/device_impl.h"
+#include "vulkan/errors.h"
 
 namespace probegi::vulkan {
 
@@ -48,6 +49,13 @@ Memory::Memory(const Device::Impl& device, const VkMemoryRequirements& needs, Me
     if (device.allocator.allocate) {
         const VkResult result = device.allocator.allocate(needs, use, m_allocation);
         if (result != VK_SUCCESS) vk::throwResultException(vk::Result(result), "the engine's allocator");
+        if (!m_allocation.memory || (use != MemoryUse::device && !m_allocation.mapped)) {
+            device.allocator.free(m_allocation);
+            throw Failure(ErrorCode::invalidArgument,
+                          m_allocation.memory ? "the engine's allocator gave upload or readback memory that "
+                                                "is not mapped; Allocation::mapped must point to it"
+                                              : "the engine's allocator succeeded but gave no memory");
+        }
     } else {
         allocateOwn(device, needs, use, deviceAddress, m_allocation);
     }
@@ -57,7 +65,7 @@ Memory::Memory(const Device::Impl& device, const VkMemoryRequirements& needs, Me
 Memory::~Memory() {
     if (!m_device) return;
     if (m_device->allocator.allocate) {
-        if (m_device->allocator.free) m_device->allocator.free(m_allocation);
+        m_device->allocator.free(m_allocation);
     } else {
         m_device->device.getDispatcher()->vkFreeMemory(*m_device->device, m_allocation.memory, nullptr);
     }

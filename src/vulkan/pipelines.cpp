@@ -55,6 +55,18 @@ std::vector<std::uint8_t> readCache(const std::filesystem::path& file, std::stri
     return body;
 }
 
+// Whether a driver's cache says that it is this driver's (VkPipelineCacheHeaderVersionOne). Drivers look as well, but
+// say nothing.
+bool isOf(const vk::raii::PhysicalDevice& physical, std::span<const std::uint8_t> cache) {
+    VkPipelineCacheHeaderVersionOne header;
+    if (cache.size() < sizeof(header)) return false;
+    std::memcpy(&header, cache.data(), sizeof(header));
+    const auto properties = physical.getProperties();
+    return header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && header.vendorID == properties.vendorID &&
+           header.deviceID == properties.deviceID &&
+           std::memcmp(header.pipelineCacheUUID, properties.pipelineCacheUUID.data(), VK_UUID_SIZE) == 0;
+}
+
 vk::raii::DescriptorSetLayout makeVolumeLayout(const vk::raii::Device& device) {
     using Type = vk::DescriptorType;
     const auto stages = vk::ShaderStageFlagBits::eCompute;
@@ -95,7 +107,13 @@ PassLayout::PassLayout(const vk::raii::Device& device, bool rayQuery)
 PipelineStore::PipelineStore(const vk::raii::PhysicalDevice& physical, const vk::raii::Device& device, bool rayQuery,
                              std::filesystem::path folder, std::string& warning)
     : m_device(device), m_layout(device, rayQuery), m_file(cacheFile(physical, folder)), m_cache(nullptr) {
-    const std::vector<std::uint8_t> data = readCache(m_file, warning);
+    std::vector<std::uint8_t> data = readCache(m_file, warning);
+    if (!data.empty() && !isOf(physical, data)) {
+        warning = fmt::format("the shader cache '{}' is of another driver and was ignored; it will be written anew",
+                              m_file.generic_string());
+        data.clear();
+    }
+    m_savedSum = checksum(data);
     m_cache = vk::raii::PipelineCache(device, vk::PipelineCacheCreateInfo({}, data.size(), data.data()));
 }
 
@@ -123,6 +141,7 @@ void PipelineStore::save() {
     CacheHeader header;
     header.bytes = body.size();
     header.sum = checksum(body);
+    if (header.sum == m_savedSum) return;
     std::error_code ignored;
     std::filesystem::create_directories(m_file.parent_path(), ignored);
     // A name of its own: several processes may end at once.
@@ -141,6 +160,7 @@ void PipelineStore::save() {
                                                           m_file.generic_string()));
     }
     m_changed = false;
+    m_savedSum = header.sum;
 }
 
 }  // namespace probegi::vulkan

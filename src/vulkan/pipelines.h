@@ -31,7 +31,7 @@ public:
     const PassLayout& layout() const noexcept { return m_layout; }
     /// `constants`: specialisation constants 0, 1, ... Throws.
     vk::Pipeline get(const std::string& shader, std::span<const std::uint32_t> constants = {});
-    /// Writes the file where anything was compiled since it was read; whole or not at all. Throws Failure.
+    /// Writes the file where it would differ from what was read; whole or not at all. Throws Failure.
     void save();
 
 private:
@@ -41,6 +41,7 @@ private:
     vk::raii::PipelineCache m_cache;
     std::map<std::string, vk::raii::Pipeline> m_pipelines;
     bool m_changed = false;
+    std::uint64_t m_savedSum = 0;  // of what the file holds
 };
 
 }  // namespace probegi::vulkan

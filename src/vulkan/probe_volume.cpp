@@ -1,4 +1,3 @@
-#include "vulkan/errors.h"
 #include "vulkan/probe_volume_impl.h"
 
 namespace probegi::vulkan {
@@ -38,7 +37,7 @@ void ProbeVolume::recordClear(VkCommandBuffer commands) {
 
 Result<void> ProbeVolume::recordUpdate(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,
                                        Profiler* profiler) {
-    return guarded("recording an update", [&] {
+    return m_impl->recorded("recording an update", [&] {
         m_impl->passes.recordUpdate({m_impl->passes.device().impl(), commands}, m_impl->books.comingUpdate(), scene,
                                     lighting, profiler);
         m_impl->books.advance();
@@ -46,7 +45,7 @@ Result<void> ProbeVolume::recordUpdate(VkCommandBuffer commands, const GpuScene&
 }
 
 Result<void> ProbeVolume::recordUpdate(VkCommandBuffer commands, VkDeviceAddress rayData, Profiler* profiler) {
-    return guarded("recording an update", [&] {
+    return m_impl->recorded("recording an update", [&] {
         m_impl->passes.recordUpdate({m_impl->passes.device().impl(), commands}, m_impl->books.comingUpdate(), rayData,
                                     profiler);
         m_impl->books.advance();
@@ -55,7 +54,7 @@ Result<void> ProbeVolume::recordUpdate(VkCommandBuffer commands, VkDeviceAddress
 
 Result<void> ProbeVolume::recordQuery(VkCommandBuffer commands, VkDeviceAddress queries, VkDeviceAddress irradiance,
                                       std::uint32_t count, Profiler* profiler) {
-    return guarded("recording a query", [&] {
+    return m_impl->recorded("recording a query", [&] {
         m_impl->passes.recordQuery({m_impl->passes.device().impl(), commands}, m_impl->books.desc(), queries,
                                    irradiance, count, profiler);
     });

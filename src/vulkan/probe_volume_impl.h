@@ -1,8 +1,11 @@
 #pragma once
 
+#include <optional>
+
 #include "field/frame_books.h"
 #include "field/layout.h"
 #include "kernels/gpu_volume.h"
+#include "vulkan/errors.h"
 #include "vulkan/recorder.h"
 
 namespace probegi::vulkan {
@@ -24,6 +27,8 @@ public:
                      VkDeviceAddress irradiance, std::uint32_t count, Profiler* profiler);
     /// Brings the constants up to date with the desc's guard, for whoever reads set() in passes of its own.
     void recordGuard(const Recorder& recorder, const FieldDesc& desc);
+    /// After commands that were recorded but will not run: the next pass writes the constants again.
+    void forgetGuard() noexcept { m_recordedGuard.reset(); }
 
     vk::DescriptorSet set() const noexcept { return *m_sets.front(); }
     void writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBinding) const;
@@ -58,11 +63,20 @@ private:
     Buffer m_hits, m_rayData;    // made by the first traced update
     vk::raii::DescriptorPool m_pool{nullptr};
     vk::raii::DescriptorSets m_sets{nullptr};
-    LeakGuard m_recordedGuard;
+    std::optional<LeakGuard> m_recordedGuard;  // what the constants hold once all that was recorded has run
 };
 
 struct ProbeVolume::Impl {
     Impl(const Device& device, const FieldDesc& desc) : passes(device, desc), books(desc) {}
+
+    /// guarded(), for passes: a caller drops the command buffer of those that failed.
+    template <class Body>
+    Result<void> recorded(const char* doing, const Body& body) {
+        auto done = guarded(doing, body);
+        if (!done) passes.forgetGuard();
+        return done;
+    }
+
     VolumePasses passes;
     FrameBooks books;
 };

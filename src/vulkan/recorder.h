@@ -36,6 +36,13 @@ public:
         const std::uint64_t rows = (groups + kGroupsPerRow - 1) / kGroupsPerRow;
         if (groups) dispatch(shader, std::uint32_t(rows > 1 ? kGroupsPerRow : groups), std::uint32_t(rows));
     }
+    /// Runs a pass over `blocks` times `columns` groups: x and z hold a group's block, y its column. Devices need not
+    /// take more than 65,535 groups along an axis, and blocks of probes may be more.
+    void dispatchOver(const std::string& shader, std::uint32_t blocks, std::uint32_t columns,
+                      std::span<const std::uint32_t> constants = {}) const {
+        const std::uint32_t rows = (blocks + kGroupsPerRow - 1) / kGroupsPerRow;
+        dispatch(shader, rows > 1 ? kGroupsPerRow : blocks, columns, rows, constants);
+    }
 
     void copy(const Buffer& from, const Buffer& to, VkDeviceSize bytes) const {
         if (bytes) m_commands.copyBuffer(from.handle(), to.handle(), vk::BufferCopy(0, 0, bytes), dispatcher());

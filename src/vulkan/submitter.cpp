@@ -13,23 +13,31 @@ void Submitter::run(const std::function<void(VkCommandBuffer)>& record) {
     const std::lock_guard lock(m_mutex);
     if (m_lost) throw vk::DeviceLostError("the device was lost before");
     const vk::raii::CommandBuffer& commands = m_commands.front();
+    // Also out of the state in which a recording that failed left it.
+    commands.reset();
+    m_device.resetFences(*m_fence);
     commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
     record(*commands);
     commands.end();
     try {
-        submitAndWait();
+        m_queue.submit(vk::SubmitInfo({}, {}, *commands), *m_fence);
     } catch (const vk::DeviceLostError&) {
         m_lost = true;
         throw;
     }
+    wait();
 }
 
-void Submitter::submitAndWait() {
-    m_queue.submit(vk::SubmitInfo({}, {}, *m_commands.front()), *m_fence);
-    // A driver that hangs is reset by its system, which then says that the device is lost.
-    while (m_device.waitForFences(*m_fence, true, 1'000'000'000) == vk::Result::eTimeout) {
+void Submitter::wait() {
+    try {
+        // A driver that hangs is reset by its system, which then says that the device is lost.
+        while (m_device.waitForFences(*m_fence, true, 1'000'000'000) == vk::Result::eTimeout) {
+        }
+    } catch (const vk::SystemError& error) {
+        // Whatever the reason: nobody knows whether the commands still run, so nothing may follow them.
+        m_lost = true;
+        throw vk::DeviceLostError(error.what());
     }
-    m_device.resetFences(*m_fence);
 }
 
 }  // namespace probegi::vulkan

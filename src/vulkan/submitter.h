@@ -15,10 +15,9 @@ public:
 
     /// Throws what `record` throws, and what Vulkan-Hpp throws.
     void run(const std::function<void(VkCommandBuffer)>& record);
-    bool lost() const noexcept { return m_lost; }
 
 private:
-    void submitAndWait();
+    void wait();
 
     const vk::raii::Device& m_device;
     const vk::raii::Queue& m_queue;

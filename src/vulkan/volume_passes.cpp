@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "kernels/gpu_passes.h"
 #include "vulkan/errors.h"
 #include "vulkan/gpu_lighting_impl.h"
@@ -39,12 +41,25 @@ Image makeAtlas(const Device& device, const char* name, vk::Format format, glm::
             std::uint32_t(counts.z)};
 }
 
+// Shaders count rays and their buffers' entries in 31 bits.
+FieldLayout checkedLayout(const FieldDesc& desc) {
+    const FieldLayout layout(desc);
+    constexpr std::size_t kMost = std::size_t(std::numeric_limits<std::int32_t>::max());
+    if (layout.probes * layout.rays > kMost)
+        throw Failure(
+            ErrorCode::unsupported,
+            fmt::format("{} probes with {} rays each are more rays than the GPU backend counts, {}; use fewer "
+                        "probes or raysPerProbe",
+                        layout.probes, layout.rays, kMost));
+    return layout;
+}
+
 }  // namespace
 
 VolumePasses::VolumePasses(const Device& device, const FieldDesc& desc)
     : m_device(device),
       m_desc(desc),
-      m_layout(desc),
+      m_layout(checkedLayout(desc)),
       m_irradiance(makeAtlas(device, "irradiance", kIrradianceFormat, desc.grid.counts, desc.irradianceTexels)),
       m_visibility(makeAtlas(device, "visibility", kVisibilityFormat, desc.grid.counts, desc.visibilityTexels)),
       m_constants(device.impl(), "volume constants", sizeof(kernels::GpuVolume),
@@ -58,8 +73,7 @@ VolumePasses::VolumePasses(const Device& device, const FieldDesc& desc)
       m_visibilityCounts(device.impl(), "visibility weight counts", m_layout.visibilityTexels * sizeof(std::uint32_t),
                          kAddressed),
       m_visibilityWeights(device.impl(), "visibility weights",
-                          m_layout.rays * m_layout.visibilityTexels * sizeof(kernels::GpuRayWeight), kAddressed),
-      m_recordedGuard(desc.guard) {
+                          m_layout.rays * m_layout.visibilityTexels * sizeof(kernels::GpuRayWeight), kAddressed) {
     writeSet();
 }
 
@@ -150,7 +164,8 @@ void VolumePasses::recordClear(const Recorder& recorder) {
         recorder.commands().clearColorImage(image->handle(), vk::ImageLayout::eGeneral, black, all,
                                             recorder.dispatcher());
     recorder.fill(m_states, 0);
-    recorder.write(m_constants, bytesOf(constants(m_recordedGuard)));
+    m_recordedGuard = m_desc.guard;
+    recorder.write(m_constants, bytesOf(constants(m_desc.guard)));
     recorder.orderAll();
 }
 
@@ -219,13 +234,13 @@ void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& fram
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "blend irradiance");
         const std::uint32_t excluded[] = {frame.desc.backfaceRule == BackfaceRule::excluded ? 1u : 0u};
-        recorder.dispatch("blend_irradiance", groups(m_layout.probes, kIrradianceProbes),
-                          groups(m_layout.irradianceTexels, kIrradianceTexels), 1, excluded);
+        recorder.dispatchOver("blend_irradiance", groups(m_layout.probes, kIrradianceProbes),
+                              groups(m_layout.irradianceTexels, kIrradianceTexels), excluded);
     }
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "blend visibility");
-        recorder.dispatch("blend_visibility", groups(m_layout.probes, kVisibilityProbes),
-                          groups(m_layout.visibilityTexels, kVisibilityTexels));
+        recorder.dispatchOver("blend_visibility", groups(m_layout.probes, kVisibilityProbes),
+                              groups(m_layout.visibilityTexels, kVisibilityTexels));
     }
 }
 

@@ -74,7 +74,7 @@ void store(int probe, int texel, vec3 newMean) {
 
 void main() {
     const int texels = probegiVolume.irradianceTexels * probegiVolume.irradianceTexels;
-    const int firstProbe = int(gl_WorkGroupID.x) * kProbes;
+    const int firstProbe = int(blockIndex()) * kProbes;
     const int firstTexel = int(gl_WorkGroupID.y) * kTexels;
     const int thread = int(gl_LocalInvocationID.x);
     const int myTexel = thread % kTexelThreads;

@@ -37,7 +37,7 @@ void main() {
     const int texels = probegiVolume.visibilityTexels * probegiVolume.visibilityTexels;
     const int texel = int(gl_WorkGroupID.y * gl_WorkGroupSize.x + gl_LocalInvocationID.x);
     if (texel >= texels) return;
-    const int firstProbe = int(gl_WorkGroupID.x) * kProbes;
+    const int firstProbe = int(blockIndex()) * kProbes;
     vec2 sum[kProbes];
     for (int p = 0; p < kProbes; ++p) sum[p] = vec2(0.0);
     const uint count = Uints(push.visibilityCounts).at[texel];

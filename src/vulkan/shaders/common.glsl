@@ -25,4 +25,9 @@ uint globalIndex() {
     return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
 }
 
+// Number of this group's block where Recorder::dispatchOver() spread blocks over x and z.
+uint blockIndex() {
+    return gl_WorkGroupID.z * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+}
+
 #endif

@@ -1,0 +1,278 @@
+// What goes wrong below the library: lost devices, no memory, refused pipelines. Always a Result, never a crash, never
+// a leak, and the CPU backend goes on.
+#include "vulkan/hooks.h"
+#include "vulkan/log_book.h"
+#include "vulkan/small_world.h"
+
+namespace probegi::test {
+
+namespace {
+
+class VulkanFaults : public testing::Test {
+protected:
+    void SetUp() override { hooks().reset(); }
+    void TearDown() override {
+        EXPECT_EQ(hooks().liveObjects(), 0) << hooks().liveText();
+        hooks().reset();
+    }
+
+    vulkan::Device open() {
+        vulkan::OpenDesc desc;
+        desc.validation = true;
+        desc.getInstanceProcAddr = hookedLoader;
+        auto opened = vulkan::Device::open(log, desc);
+        if (!opened) throw std::runtime_error(opened.error().message);
+        return *opened;
+    }
+
+    // Calls `work` with one failing call after the other until none is left to fail. What fails must say so.
+    template <class Work>
+    void failEachCall(VkResult result, const std::string& only, ErrorCode expected, const Work& work) {
+        const int before = hooks().liveObjects();
+        for (int n = 1; n < 500; ++n) {
+            hooks().failCall(n, result, only);
+            const auto done = work();
+            if (!hooks().failed()) {
+                EXPECT_TRUE(done) << done.error().message;
+                EXPECT_GT(n, 1) << "nothing was called that could fail";
+                return;
+            }
+            ASSERT_FALSE(done) << "call " << n << " failed and nobody noticed";
+            EXPECT_EQ(done.error().code, expected) << n << ": " << done.error().message;
+            EXPECT_GT(done.error().message.size(), 20u);
+            ASSERT_EQ(hooks().liveObjects(), before) << "after call " << n << ": " << hooks().liveText();
+        }
+        FAIL() << "more than 500 calls";
+    }
+
+    LogBook log;
+    const SmallWorld world;
+};
+
+// Any Result without its value.
+template <class T>
+Result<void> only(const Result<T>& result) {
+    if (!result) return tl::unexpected(result.error());
+    return {};
+}
+
+void expectCpuWorks(const Context& context, const SmallWorld& world) {
+    const auto tracer = makeEmbreeTracer(context, world.scene, world.pose);
+    ASSERT_TRUE(tracer);
+    auto field = Field::create(context, world.desc);
+    ASSERT_TRUE(field);
+    ASSERT_TRUE(field->update(**tracer, world.lighting));
+    EXPECT_TRUE(finite(field->irradiance(world.query())));
+}
+
+void expectLost(const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::deviceLost) << error.message;
+    EXPECT_NE(error.message.find("CPU backend"), std::string::npos) << error.message;
+}
+
+}  // namespace
+
+TEST_F(VulkanFaults, aLostDeviceStaysLostAndNothingCrashes) {
+    for (const char* function : {"vkQueueSubmit", "vkWaitForFences"}) {
+        SCOPED_TRACE(function);
+        hooks().reset();
+        const vulkan::Device device = open();
+        for (const vulkan::TracerKind kind : tracerKinds(device)) {
+            hooks().failCall(0, VK_SUCCESS);
+            const vulkan::Device other = open();
+            const auto tracer = vulkan::makeTracer(log, other, world.scene, world.pose, {.tracer = kind});
+            ASSERT_TRUE(tracer) << tracer.error().message;
+            auto field = vulkan::makeField(log, other, world.desc);
+            ASSERT_TRUE(field);
+            ASSERT_TRUE(field->update(**tracer, world.lighting));
+            EXPECT_TRUE(finite(field->irradiance(world.query())));
+
+            hooks().failCall(1, VK_ERROR_DEVICE_LOST, function);
+            const auto updated = field->update(**tracer, world.lighting);
+            ASSERT_FALSE(updated);
+            expectLost(updated.error());
+            ASSERT_TRUE(hooks().failed());
+
+            // The driver answers again, but the device is gone, and nothing more is submitted to it.
+            const int submits = hooks().submits;
+            const std::vector<RayDatum> rays(18 * 16);
+            const auto fed = field->update(rays);
+            ASSERT_FALSE(fed);
+            expectLost(fed.error());
+            const glm::vec3 one = field->irradiance(world.query());
+            EXPECT_TRUE(std::isnan(one.x) && std::isnan(one.y) && std::isnan(one.z));
+            const FieldQuery query = world.query();
+            glm::vec3 answer;
+            const auto batch = field->irradiance({&query, 1}, {&answer, 1});
+            ASSERT_FALSE(batch);
+            expectLost(batch.error());
+            EXPECT_TRUE(std::isnan(field->probeIrradiance(0, {0, 1, 0}).x));
+            EXPECT_TRUE(std::isnan(field->probeBackfaceShare(0)));
+            EXPECT_EQ(field->fallbackQueries(), 0u);
+            const Ray ray{world.pose.bounds.centre(), 0.0f, {0, -1, 0}, 1e30f};
+            Hit hit;
+            hit.primitive = 7;
+            (*tracer)->closestHits({&ray, 1}, {&hit, 1});
+            EXPECT_FALSE(hit.valid());
+            std::uint8_t blocked = 1;
+            (*tracer)->occluded({&ray, 1}, {&blocked, 1});
+            EXPECT_EQ(blocked, 0);
+            const auto picture = vulkan::renderPicture(log, other, **tracer, world.lighting, &*field, world.picture());
+            ASSERT_FALSE(picture);
+            expectLost(picture.error());
+            const auto another = vulkan::makeField(log, other, world.desc);
+            ASSERT_FALSE(another);
+            expectLost(another.error());
+            EXPECT_EQ(hooks().submits, submits);
+            expectCpuWorks(log, world);
+        }
+        // Another device of the same process does not notice.
+        EXPECT_TRUE(vulkan::makeField(log, device, world.desc));
+    }
+}
+
+TEST_F(VulkanFaults, aWaitThatFailsForLackOfMemoryIsALostDevice) {
+    const vulkan::Device device = open();
+    hooks().failCall(1, VK_ERROR_OUT_OF_HOST_MEMORY, "vkWaitForFences");
+    const auto field = vulkan::makeField(log, device, world.desc);
+    ASSERT_FALSE(field);
+    expectLost(field.error());
+}
+
+TEST_F(VulkanFaults, aSubmitWithoutMemoryFailsAndTheNextWorks) {
+    const vulkan::Device device = open();
+    hooks().failCall(1, VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkQueueSubmit");
+    const auto refused = vulkan::makeField(log, device, world.desc);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::outOfMemory);
+    auto field = vulkan::makeField(log, device, world.desc);
+    ASSERT_TRUE(field) << field.error().message;
+    EXPECT_TRUE(finite(field->irradiance(world.query())));
+}
+
+TEST_F(VulkanFaults, makingATracerSurvivesEveryRefusedAllocation) {
+    const vulkan::Device device = open();
+    for (const vulkan::TracerKind kind : tracerKinds(device)) {
+        const auto work = [&] {
+            return only(vulkan::makeTracer(log, device, world.scene, world.pose, {.tracer = kind}));
+        };
+        failEachCall(VK_ERROR_OUT_OF_DEVICE_MEMORY, "", ErrorCode::outOfMemory, work);
+        failEachCall(VK_ERROR_TOO_MANY_OBJECTS, "vkAllocateMemory", ErrorCode::outOfMemory, work);
+        failEachCall(VK_ERROR_MEMORY_MAP_FAILED, "vkMapMemory", ErrorCode::outOfMemory, work);
+        failEachCall(VK_ERROR_OUT_OF_HOST_MEMORY, "vkCreateDescriptorPool", ErrorCode::outOfMemory, work);
+    }
+}
+
+TEST_F(VulkanFaults, aFieldSurvivesEveryRefusedAllocation) {
+    const vulkan::Device device = open();
+    const auto tracer = vulkan::makeTracer(log, device, world.scene, world.pose);
+    ASSERT_TRUE(tracer);
+    // Compiles what is compiled once, so that objects can be counted.
+    ASSERT_TRUE(vulkan::makeField(log, device, world.desc)->update(**tracer, world.lighting));
+    const auto work = [&]() -> Result<void> {
+        auto field = vulkan::makeField(log, device, world.desc);
+        if (!field) return tl::unexpected(field.error());
+        if (auto ok = field->update(**tracer, world.lighting); !ok) return only(ok);
+        const FieldQuery query = world.query();
+        glm::vec3 answer;
+        return field->irradiance({&query, 1}, {&answer, 1});
+    };
+    ASSERT_TRUE(work());
+    failEachCall(VK_ERROR_OUT_OF_DEVICE_MEMORY, "", ErrorCode::outOfMemory, work);
+    failEachCall(VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkCreateImageView", ErrorCode::outOfMemory, work);
+    failEachCall(VK_ERROR_OUT_OF_HOST_MEMORY, "vkCreateQueryPool", ErrorCode::outOfMemory, work);
+}
+
+TEST_F(VulkanFaults, aFieldThatRanOutOfMemoryWorksOnceThereIsSome) {
+    const vulkan::Device device = open();
+    const auto tracer = vulkan::makeTracer(log, device, world.scene, world.pose);
+    ASSERT_TRUE(tracer);
+    auto reference = vulkan::makeField(log, device, world.desc);
+    ASSERT_TRUE(reference->update(**tracer, world.lighting));
+    for (int n = 1; n < 20; ++n) {
+        auto field = vulkan::makeField(log, device, world.desc);
+        ASSERT_TRUE(field);
+        hooks().failCall(n, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+        if (!field->update(**tracer, world.lighting)) {
+            EXPECT_EQ(field->frame(), 0);
+            hooks().failCall(0, VK_SUCCESS);
+            ASSERT_TRUE(field->update(**tracer, world.lighting));
+        }
+        hooks().failCall(0, VK_SUCCESS);
+        EXPECT_GT(reference->irradiance(world.query()).x, 0.0f);
+        EXPECT_EQ(field->irradiance(world.query()), reference->irradiance(world.query()));
+    }
+}
+
+TEST_F(VulkanFaults, aPictureSurvivesEveryRefusedAllocation) {
+    const vulkan::Device device = open();
+    const auto tracer = vulkan::makeTracer(log, device, world.scene, world.pose);
+    auto field = vulkan::makeField(log, device, world.desc);
+    ASSERT_TRUE(tracer && field);
+    const auto work = [&] {
+        return only(vulkan::renderPicture(log, device, **tracer, world.lighting, &*field, world.picture()));
+    };
+    ASSERT_TRUE(work());
+    failEachCall(VK_ERROR_OUT_OF_DEVICE_MEMORY, "", ErrorCode::outOfMemory, work);
+    HdrImage image;
+    image.width = image.height = 2;
+    image.pixels.resize(4);
+    failEachCall(VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkAllocateMemory", ErrorCode::outOfMemory,
+                 [&] { return only(vulkan::toneMapImage(device, image, {})); });
+}
+
+TEST_F(VulkanFaults, openingSurvivesEveryRefusedObject) {
+    failEachCall(VK_ERROR_OUT_OF_HOST_MEMORY, "vkCreate", ErrorCode::outOfMemory, [&] {
+        vulkan::OpenDesc desc;
+        desc.getInstanceProcAddr = hookedLoader;
+        return only(vulkan::Device::open(log, desc));
+    });
+}
+
+TEST_F(VulkanFaults, pipelinesThatDoNotCompileAreErrorsAndAreTriedAgain) {
+    const vulkan::Device device = open();
+    const auto tracer = vulkan::makeTracer(log, device, world.scene, world.pose);
+    ASSERT_TRUE(tracer);
+    // Each attempt compiles one pipeline more than the one before.
+    int refusals = 0;
+    for (; refusals < 20; ++refusals) {
+        auto field = vulkan::makeField(log, device, world.desc);
+        ASSERT_TRUE(field);
+        hooks().failCall(refusals % 2 + 1, VK_ERROR_UNKNOWN, "vkCreateComputePipelines");
+        const auto done = field->update(**tracer, world.lighting);
+        if (!hooks().failed()) {
+            EXPECT_TRUE(done);
+            break;
+        }
+        ASSERT_FALSE(done);
+        EXPECT_EQ(done.error().code, ErrorCode::unsupported);
+        EXPECT_NE(done.error().message.find("driver failed"), std::string::npos) << done.error().message;
+    }
+    EXPECT_GE(refusals, 3);
+    hooks().failCall(1, VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkCreateComputePipelines");
+    auto field = vulkan::makeField(log, device, world.desc);
+    EXPECT_TRUE(std::isnan(field->irradiance(world.query()).x));
+    hooks().failCall(0, VK_SUCCESS);
+    EXPECT_TRUE(finite(field->irradiance(world.query())));
+}
+
+TEST_F(VulkanFaults, theGuardOfAFailedQueryIsNotForgotten) {
+    const vulkan::Device device = open();
+    const auto tracer = vulkan::makeTracer(log, device, world.scene, world.pose);
+    auto field = vulkan::makeField(log, device, world.desc);
+    auto other = vulkan::makeField(log, device, world.desc);
+    ASSERT_TRUE(tracer && field && other);
+    ASSERT_TRUE(field->update(**tracer, world.lighting));
+    ASSERT_TRUE(other->update(**tracer, world.lighting));
+    field->setGuard(LeakGuard::none);
+    other->setGuard(LeakGuard::none);
+    // The first query compiles its pass.
+    hooks().failCall(1, VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkCreateComputePipelines");
+    EXPECT_TRUE(std::isnan(field->irradiance(world.query()).x));
+    hooks().failCall(1, VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkQueueSubmit");
+    EXPECT_TRUE(std::isnan(field->irradiance(world.query()).x));
+    hooks().failCall(0, VK_SUCCESS);
+    EXPECT_EQ(field->irradiance(world.query()), other->irradiance(world.query()));
+}
+
+}  // namespace probegi::test

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <functional>
+#include <map>
+#include <string>
+
+namespace probegi::test {
+
+/// A driver that misbehaves as told: stands between the library and the loader, counts objects and memory, and fails
+/// calls. One for the process, since Vulkan's functions carry no user data; reset() at the start of a test.
+struct Hooks {
+    /// The n-th call from now on (1 is the next) of the allocating functions fails, as those after it do where `stays`.
+    /// These are vkAllocateMemory, vkCreateBuffer and vkCreateImage, or all functions whose name begins with `only`.
+    void failCall(int n, VkResult result, const std::string& only = {}, bool stays = false);
+    /// Whether a call has failed since failCall().
+    bool failed() const noexcept { return failures > 0; }
+
+    void reset() { *this = Hooks(); }
+    /// Objects of all kinds and allocations that are alive.
+    int liveObjects() const;
+    std::string liveText() const;
+
+    std::map<std::string, int> live;  ///< by kind: "Buffer"
+    std::map<VkDeviceMemory, VkDeviceSize> allocations;
+    VkDeviceSize allocatedBytes() const;
+
+    int countdown = 0;  ///< 0: no call fails
+    bool failuresStay = false;
+    int failures = 0;
+    VkResult failure = VK_SUCCESS;
+    std::string failing;
+
+    std::function<void(VkPhysicalDeviceProperties&)> properties;
+    std::function<void(VkFormat, VkFormatProperties&)> formats;
+    std::function<void(VkQueueFamilyProperties&)> families;
+    std::function<void(VkPhysicalDeviceFeatures2&)> features;
+    std::string hidden;  ///< functions whose name contains it are not there; empty: none
+    int submits = 0;
+};
+
+Hooks& hooks();
+
+/// For OpenDesc::getInstanceProcAddr and AdoptDesc::getInstanceProcAddr.
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL hookedLoader(VkInstance instance, const char* name);
+
+}  // namespace probegi::test

@@ -1,0 +1,215 @@
+// Passes in an engine's own command buffers, under synchronisation validation.
+#include <fstream>
+#include <random>
+
+#include "vulkan/engine.h"
+#include "vulkan/hooks.h"
+#include "vulkan/log_book.h"
+#include "vulkan/query_shader.h"
+#include "vulkan/small_world.h"
+
+namespace probegi::test {
+
+namespace {
+
+using vulkan::ProbeVolume;
+
+class VulkanRecorded : public testing::Test {
+protected:
+    void SetUp() override {
+        hooks().reset();
+        std::mt19937 random(5);
+        std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+        const Bounds& bounds = world.pose.bounds;
+        for (int i = 0; i < 200; ++i) {
+            const glm::vec3 at = bounds.lower + bounds.size() * glm::vec3(unit(random), unit(random), unit(random));
+            const glm::vec3 normal = glm::normalize(glm::vec3(unit(random), unit(random), unit(random)) - 0.5f);
+            queries.push_back({at, normal, normal});
+        }
+        rays.resize(18 * 16);
+        for (RayDatum& d : rays) d = {{unit(random), 2.0f * unit(random), 0.5f}, 0.2f + unit(random)};
+        questions = engine.makeBuffer(std::span<const FieldQuery>(queries));
+        rayBuffer = engine.makeBuffer(std::span<const RayDatum>(rays));
+    }
+
+    vulkan::Device adopt() { return *vulkan::Device::adopt(log, engine.adoptDesc()); }
+    EngineBuffer answers() { return engine.makeBuffer(queries.size() * sizeof(glm::vec3)); }
+    std::uint32_t count() const { return std::uint32_t(queries.size()); }
+
+    // What the CPU makes of the same rays.
+    std::vector<glm::vec3> onCpu(int updates, LeakGuard guard) const {
+        Field field = *Field::create(log, world.desc);
+        for (int i = 0; i < updates; ++i) EXPECT_TRUE(field.update(rays));
+        field.setGuard(guard);
+        std::vector<glm::vec3> e(queries.size());
+        EXPECT_TRUE(field.irradiance(queries, e));
+        return e;
+    }
+    static void expectEqual(const EngineBuffer& buffer, const std::vector<glm::vec3>& wanted, float relative) {
+        const auto got = buffer.as<glm::vec3>();
+        float brightest = 0;
+        for (const glm::vec3& e : wanted) brightest = std::max({brightest, e.x, e.y, e.z});
+        ASSERT_GT(brightest, 0.0f);
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[i][c], wanted[i][c], relative * brightest) << i;
+    }
+    static std::vector<glm::vec3> valuesOf(const EngineBuffer& buffer) {
+        const auto values = buffer.as<glm::vec3>();
+        return {values.begin(), values.end()};
+    }
+
+    const SmallWorld world;
+    LogBook log;
+    Engine engine;
+    std::vector<FieldQuery> queries;
+    std::vector<RayDatum> rays;
+    EngineBuffer questions, rayBuffer;
+};
+
+}  // namespace
+
+TEST_F(VulkanRecorded, updatesAndQueriesInOneCommandBuffer) {
+    const vulkan::Device device = adopt();
+    ProbeVolume volume = *ProbeVolume::create(device, world.desc), other = *ProbeVolume::create(device, world.desc);
+    const EngineBuffer first = answers(), second = answers(), unguarded = answers(), again = answers(),
+                       others = answers();
+    engine.run([&](VkCommandBuffer commands) {
+        volume.recordClear(commands);
+        other.recordClear(commands);
+        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.address));
+        EXPECT_TRUE(volume.recordQuery(commands, questions.address, first.address, count()));
+        for (int i = 0; i < 2; ++i) {
+            EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.address));
+            EXPECT_TRUE(other.recordUpdate(commands, rayBuffer.address));
+        }
+        EXPECT_TRUE(volume.recordQuery(commands, questions.address, second.address, count()));
+        volume.setGuard(LeakGuard::none);
+        EXPECT_TRUE(volume.recordQuery(commands, questions.address, unguarded.address, count()));
+        volume.setGuard(LeakGuard::moments);
+        EXPECT_TRUE(volume.recordQuery(commands, questions.address, again.address, count()));
+        EXPECT_TRUE(other.recordQuery(commands, questions.address, others.address, count()));
+        EXPECT_TRUE(other.recordQuery(commands, questions.address, others.address, 0));
+    });
+    EXPECT_EQ(volume.frame(), 3);
+    expectEqual(first, onCpu(1, LeakGuard::moments), 2e-3f);
+    expectEqual(second, onCpu(3, LeakGuard::moments), 2e-3f);
+    expectEqual(unguarded, onCpu(3, LeakGuard::none), 2e-3f);
+    expectEqual(others, onCpu(2, LeakGuard::moments), 2e-3f);
+    expectEqual(again, valuesOf(second), 0.0f);
+    EXPECT_NE(valuesOf(unguarded), valuesOf(second));
+}
+
+TEST_F(VulkanRecorded, updatesAndQueriesInSubmitsOfTheirOwn) {
+    const vulkan::Device device = adopt();
+    ProbeVolume volume = *ProbeVolume::create(device, world.desc);
+    const EngineBuffer result = answers();
+    engine.submit([&](VkCommandBuffer commands) { volume.recordClear(commands); });
+    for (int i = 0; i < 3; ++i)
+        engine.submit([&](VkCommandBuffer commands) { EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.address)); });
+    engine.submit([&](VkCommandBuffer commands) {
+        EXPECT_TRUE(volume.recordQuery(commands, questions.address, result.address, count()));
+    });
+    engine.wait();
+    expectEqual(result, onCpu(3, LeakGuard::moments), 2e-3f);
+}
+
+TEST_F(VulkanRecorded, lightsThatChangeAreThoseThatWereMade) {
+    const vulkan::Device device = adopt();
+    vulkan::GpuScene scene = *vulkan::GpuScene::create(log, device, world.scene, world.pose);
+    PlacedLight lamp;
+    lamp.position = world.pose.bounds.centre();
+    lamp.intensity = glm::vec3(3.0f);
+    Lighting dark{{}, {}}, bright{{lamp, lamp}, {}};
+    dark.sky.radiance = bright.sky.radiance = glm::vec3(0.1f);
+    bright.sky.radiance = glm::vec3(0.4f);
+    vulkan::GpuLighting changed = *vulkan::GpuLighting::create(device, dark, 2),
+                        made = *vulkan::GpuLighting::create(device, bright);
+    ProbeVolume a = *ProbeVolume::create(device, world.desc), b = *ProbeVolume::create(device, world.desc);
+    const EngineBuffer before = answers(), after = answers(), wanted = answers();
+    engine.run([&](VkCommandBuffer commands) {
+        scene.recordUpload(commands);
+        changed.recordUpload(commands);
+        made.recordUpload(commands);
+        a.recordClear(commands);
+        b.recordClear(commands);
+        EXPECT_TRUE(a.recordUpdate(commands, scene, changed));
+        EXPECT_TRUE(a.recordQuery(commands, questions.address, before.address, count()));
+        a.recordClear(commands);
+        EXPECT_TRUE(changed.recordUpdate(commands, bright));
+        EXPECT_TRUE(a.recordUpdate(commands, scene, changed));
+        EXPECT_TRUE(a.recordQuery(commands, questions.address, after.address, count()));
+        EXPECT_TRUE(b.recordUpdate(commands, scene, changed));
+        b.recordClear(commands);
+        EXPECT_TRUE(b.recordUpdate(commands, scene, made));
+        EXPECT_TRUE(b.recordQuery(commands, questions.address, wanted.address, count()));
+        const auto tooMany = changed.recordUpdate(commands, {{lamp, lamp, lamp}, {}});
+        ASSERT_FALSE(tooMany);
+        EXPECT_EQ(tooMany.error().code, ErrorCode::invalidArgument);
+        EXPECT_NE(tooMany.error().message.find("maxLights"), std::string::npos);
+    });
+    scene.releaseStaging();
+    changed.releaseStaging();
+    expectEqual(after, valuesOf(wanted), 1e-6f);
+    EXPECT_NE(valuesOf(before), valuesOf(after));
+}
+
+TEST_F(VulkanRecorded, theIncludeAnswersAsThePassDoes) {
+    const vulkan::Device device = adopt();
+    ProbeVolume volume = *ProbeVolume::create(device, world.desc);
+    const EngineBuffer byPass = answers(), byInclude = answers();
+    QueryShader shader(engine, PROBEGI_QUERY_SPIRV, questions, byInclude);
+    volume.writeQueryBindings(shader.volumeSet(), QueryShader::kFirstBinding);
+    engine.run([&](VkCommandBuffer commands) {
+        volume.recordClear(commands);
+        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.address));
+        shader.record(commands, count());
+        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.address));
+        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.address));
+        shader.record(commands, count());
+        EXPECT_TRUE(volume.recordQuery(commands, questions.address, byPass.address, count()));
+    });
+    expectEqual(byInclude, valuesOf(byPass), 1e-5f);
+}
+
+TEST_F(VulkanRecorded, passesAreTimed) {
+    const vulkan::Device device = adopt();
+    ProbeVolume volume = *ProbeVolume::create(device, world.desc);
+    vulkan::GpuScene scene = *vulkan::GpuScene::create(log, device, world.scene, world.pose);
+    vulkan::GpuLighting lighting = *vulkan::GpuLighting::create(device, world.lighting);
+    vulkan::Profiler all = *vulkan::Profiler::create(device), few = *vulkan::Profiler::create(device, 2);
+    EXPECT_TRUE(all.read()->empty());
+    const EngineBuffer result = answers();
+    for (int frame = 0; frame < 2; ++frame)
+        engine.run([&](VkCommandBuffer commands) {
+            if (frame == 0) {
+                scene.recordUpload(commands);
+                lighting.recordUpload(commands);
+                volume.recordClear(commands);
+            }
+            all.recordReset(commands);
+            few.recordReset(commands);
+            EXPECT_TRUE(volume.recordUpdate(commands, scene, lighting, &all));
+            EXPECT_TRUE(volume.recordQuery(commands, questions.address, result.address, count(), &all));
+            all.recordBegin(commands, "mine");
+            all.recordEnd(commands);
+            EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.address, &few));
+        });
+    const auto times = all.read();
+    ASSERT_TRUE(times);
+    std::vector<std::string> names;
+    for (const vulkan::PassTime& pass : *times) {
+        names.push_back(pass.name);
+        EXPECT_GE(pass.milliseconds, 0.0);
+        EXPECT_LT(pass.milliseconds, 1e5);
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"weights", "trace", "shade", "blend irradiance", "blend visibility",
+                                               "query", "mine"}));
+    EXPECT_GT((*times)[1].milliseconds, 0.0);
+    const auto first = few.read();
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->size(), 2u);
+    EXPECT_FALSE(vulkan::Profiler::create(device, 0));
+    EXPECT_FALSE(vulkan::Profiler::create(device, 1025));
+}
+
+}  // namespace probegi::test
