@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <map>
 
 #include "surface/lighting.h"
@@ -29,8 +31,12 @@ GpuScene::Impl::Impl(const Context& context, const Device& d, const Scene& scene
                      const GpuSceneDesc& desc)
     : device(d), bounds(pose.bounds) {
     const TracerKind kind = chooseTracer(device, desc.tracer);
+    for (const int node : desc.movableNodes)
+        if (node < 0 || std::size_t(node) >= scene.nodes.size())
+            throw Failure(ErrorCode::invalidArgument,
+                          fmt::format("movableNodes has {}, but the scene has {} nodes", node, scene.nodes.size()));
     const SceneGeometry geometry =
-        SceneGeometry::gather(scene, pose, desc.movable ? animatedInstances(scene) : InstancePredicate());
+        SceneGeometry::gather(scene, pose, movableInstances(scene, desc.movable, desc.movableNodes));
     placements = geometry.placements;
     data = packScene(geometry, scene);
     upload();
