@@ -1,7 +1,7 @@
 #include "renderer.h"
 
 #include <array>
-#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
 
 using namespace probegi;
 
@@ -15,11 +15,6 @@ constexpr std::uint32_t kGBufferFrag[] = {
 };
 constexpr std::uint32_t kShade[] = {
 #include "shade.comp.inc"
-};
-
-struct ShadePush {
-    vk::DeviceAddress frame;
-    glm::vec3 eye;
 };
 
 constexpr auto kTarget = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled;
@@ -75,7 +70,7 @@ Renderer::Renderer(const EngineDevice& engine, MemoryPool& pool, vk::Extent2D si
       m_imageSet(std::move(vk::raii::DescriptorSets(engine.device(), {*m_descriptors, *m_imageLayout}).front())),
       m_probes(engine.device()),
       m_rasterLayout(makeLayout(engine.device(), vk::ShaderStageFlagBits::eVertex, sizeof(vk::DeviceAddress), {})),
-      m_shadeLayout(makeLayout(engine.device(), vk::ShaderStageFlagBits::eCompute, sizeof(ShadePush),
+      m_shadeLayout(makeLayout(engine.device(), vk::ShaderStageFlagBits::eCompute, sizeof(vk::DeviceAddress),
                                {*m_imageLayout, m_probes.layout()})),
       m_raster(nullptr),
       m_shade(makeComputePipeline(engine.device(), *m_shadeLayout, kShade)) {
@@ -150,13 +145,13 @@ void Renderer::recordGBuffer(const vk::raii::CommandBuffer& commands, vk::Device
 }
 
 void Renderer::recordShading(const vk::raii::CommandBuffer& commands, vk::DeviceAddress frame) const {
-    // The last update ended with a barrier over all commands: the probes may be read without another.
+    // The last update ended with a barrier over all commands: the probes may be read without one more.
     const auto begin =
         transition(m_picture, kTransferRead, vk::ImageLayout::eUndefined, kShadeWrite, vk::ImageLayout::eGeneral);
     commands.pipelineBarrier2(vk::DependencyInfo().setImageMemoryBarriers(begin));
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *m_shade);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *m_shadeLayout, 0, {*m_imageSet, *m_probes}, {});
-    commands.pushConstants<ShadePush>(*m_shadeLayout, vk::ShaderStageFlagBits::eCompute, 0, ShadePush{frame, kEye});
+    commands.pushConstants<vk::DeviceAddress>(*m_shadeLayout, vk::ShaderStageFlagBits::eCompute, 0, frame);
     commands.dispatch((2 * m_size.width + 7) / 8, (m_size.height + 7) / 8, 1);
 }
 

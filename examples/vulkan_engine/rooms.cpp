@@ -62,13 +62,13 @@ FrameData frameAt(float time, float aspect) {
                     .skyRadiance = {0.35f, 0.5f, 0.75f},
                     .boxCount = kBoxes,
                     .boxes = kRooms};
-    const glm::vec3 slide(-3.6f + 1.2f * time, 0, 1.7f);
+    const glm::vec3 slide(-3.7f + 1.0f * time, 0, 1.9f);
     frame.boxes[kCrate].lower += slide;
     frame.boxes[kCrate].upper += slide;
     // A long lens far away: both rooms as in a doll's house.
-    glm::mat4 projection = glm::perspectiveRH_ZO(glm::radians(15.2f), aspect, 1.0f, 50.0f);
+    glm::mat4 projection = glm::perspectiveRH_ZO(glm::radians(16.8f), aspect, 1.0f, 50.0f);
     projection[1][1] *= -1;  // Vulkan's y points down
-    frame.worldToClip = projection * glm::lookAt(kEye, glm::vec3(0, 1.62f, 0), glm::vec3(0, 1, 0));
+    frame.worldToClip = projection * glm::lookAt(kEye, glm::vec3(0, 1.45f, 0), glm::vec3(0, 1, 0));
     return frame;
 }
 

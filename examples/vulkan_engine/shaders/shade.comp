@@ -14,7 +14,6 @@ layout(set = 0, binding = 2) uniform texture2D albedos;
 layout(set = 0, binding = 3, rgba32f) writeonly uniform image2D picture;
 layout(push_constant, scalar) uniform Push {
     Frame frame;
-    vec3 eye;
 };
 
 void main() {
@@ -27,7 +26,9 @@ void main() {
     if (position.w > 0.0) {
         const vec3 normal = texelFetch(normals, at, 0).xyz;
         vec3 irradiance = sunlight(frame, position.xyz, normal);
-        if (withProbes) irradiance += probegiIrradiance(position.xyz, normal, normalize(eye - position.xyz));
+        // The third argument is the direction to the viewer, or the normal where there is none: this one looks in
+        // through a wall, which probes are not to do.
+        if (withProbes) irradiance += probegiIrradiance(position.xyz, normal, normal);
         radiance = texelFetch(albedos, at, 0).rgb / 3.14159265 * irradiance;
     }
     imageStore(picture, pixel, vec4(radiance, 1.0));
