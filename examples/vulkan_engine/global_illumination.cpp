@@ -7,7 +7,7 @@
 using namespace probegi;
 using namespace probegi::vulkan;
 
-// [readme-vulkan-adopt]
+// [adopt]
 Device GlobalIllumination::adopt(const Context& context, const EngineDevice& engine, MemoryPool& pool) {
     AdoptDesc desc;
     desc.instance = *engine.instance();
@@ -20,7 +20,7 @@ Device GlobalIllumination::adopt(const Context& context, const EngineDevice& eng
     desc.allocator = pool.callbacks();
     return Device::adopt(context, desc).value();
 }
-// [/readme-vulkan-adopt]
+// [/adopt]
 
 GlobalIllumination::GlobalIllumination(const Context& context, const EngineDevice& engine, MemoryPool& pool,
                                        const FrameData& start)
@@ -47,16 +47,18 @@ void GlobalIllumination::releaseStaging() {
 
 void GlobalIllumination::record(const vk::raii::CommandBuffer& commands, const FrameData& now, vk::DeviceAddress frame,
                                 Profiler& profiler) {
-    // [readme-vulkan-frame]
+    // [frame]
     must(m_lighting.recordUpdate(*commands, lightingOf(now)));
     must(m_gpuScene.recordPose(*commands, poseOf(m_scene, m_start, now)));
     must(m_traced.recordUpdate(*commands, m_gpuScene, m_lighting, &profiler));
-    // [/readme-vulkan-frame]
+    // [/frame]
 
+    // [own]
     profiler.recordBegin(*commands, "own rays");
     m_ownRays.record(commands, m_own, frame);
     profiler.recordEnd(*commands);
     must(m_own.recordUpdate(*commands, m_ownRays.data(), &profiler));
+    // [/own]
 }
 
 void GlobalIllumination::recordQuestions(const vk::raii::CommandBuffer& commands, vk::DeviceAddress questions,

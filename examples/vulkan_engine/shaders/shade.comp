@@ -25,11 +25,14 @@ void main() {
     vec3 radiance = frame.skyRadiance;
     if (position.w > 0.0) {
         const vec3 normal = texelFetch(normals, at, 0).xyz;
+        const vec3 albedo = texelFetch(albedos, at, 0).rgb;
+        // The direction to the viewer; the normal, since this one looks in through a wall, which probes must not do.
+        const vec3 toViewer = normal;
+        // [query]
         vec3 irradiance = sunlight(frame, position.xyz, normal);
-        // The third argument is the direction to the viewer, or the normal where there is none: this one looks in
-        // through a wall, which probes are not to do.
-        if (withProbes) irradiance += probegiIrradiance(position.xyz, normal, normal);
-        radiance = texelFetch(albedos, at, 0).rgb / 3.14159265 * irradiance;
+        if (withProbes) irradiance += probegiIrradiance(position.xyz, normal, toViewer);
+        radiance = albedo / 3.14159265 * irradiance;
+        // [/query]
     }
     imageStore(picture, pixel, vec4(radiance, 1.0));
 }

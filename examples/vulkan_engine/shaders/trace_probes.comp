@@ -27,13 +27,14 @@ RayDatum traceRay(vec3 origin, vec3 direction) {
     if (hit.box < 0) return RayDatum(frame.skyRadiance, kMiss);
     if (hit.inside) return RayDatum(vec3(0.0), -hit.distance);
     const vec3 position = origin + hit.distance * direction;
-    const vec3 irradiance =
-        sunlight(frame, position, hit.normal) + probegiIrradiance(position, hit.normal, -direction);
+    const vec3 irradiance = sunlight(frame, position, hit.normal) + probegiIrradiance(position, hit.normal, -direction);
     return RayDatum(frame.boxes[hit.box].albedo / 3.14159265 * irradiance, hit.distance);
 }
 
+// [rays]
 void main() {
     const int index = int(gl_GlobalInvocationID.x), probe = index / rays;
     if (probe >= probegiProbeCount()) return;
     rayData.of[index] = traceRay(probegiProbePosition(probe), directions.of[index % rays]);
 }
+// [/rays]
