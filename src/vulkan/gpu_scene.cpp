@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <map>
 
 #include "bvh/binary_tree.h"
@@ -31,8 +33,12 @@ GpuScene::Impl::Impl(const Context& context, const Device& d, const Scene& scene
                      const GpuSceneDesc& desc)
     : device(d) {
     const TracerKind kind = chooseTracer(device, desc.tracer);
+    for (const int node : desc.movableNodes)
+        if (node < 0 || std::size_t(node) >= scene.nodes.size())
+            throw Failure(ErrorCode::invalidArgument,
+                          fmt::format("movableNodes has {}, but the scene has {} nodes", node, scene.nodes.size()));
     const SceneGeometry geometry =
-        SceneGeometry::gather(scene, pose, desc.movable ? animatedInstances(scene) : InstancePredicate());
+        SceneGeometry::gather(scene, pose, movableInstances(scene, desc.movable, desc.movableNodes));
     placements = geometry.placements;
     bounds = geometry.bounds();
     worldBounds = geometry.world.bounds();

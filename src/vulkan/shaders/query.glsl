@@ -44,6 +44,14 @@ layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 3, scalar) PROBEGI_STATES_
 }
 probegiStates;
 
+// For ray data of your own: how many probes there are, and where each stands. Its rays begin there.
+int probegiProbeCount() {
+    return probegiVolume.counts.x * probegiVolume.counts.y * probegiVolume.counts.z;
+}
+vec3 probegiProbePosition(int probe) {
+    return probePlace(gpuProbeCell(probe, probegiVolume.counts), probegiVolume.origin, probegiVolume.spacing);
+}
+
 // What a probe stores towards a normal, encoded. `texel`: octTexelPosition of the normal.
 vec3 probegiStored(ivec3 cell, vec2 texel) {
     const vec2 at = gpuAtlasCoordinates(cell, texel, probegiVolume.irradianceTexels, probegiVolume.irradianceTexelSize);
