@@ -171,8 +171,8 @@ struct GpuSceneDesc {
 class GpuScene {
 public:
     /// Builds the BVH on the context's threads, allocates, and fills staging memory. The scene must be valid; it is
-    /// read during the call only. Errors: outOfMemory, unsupported (ray query asked for and not there), invalidArgument (a
-    /// movable node that the scene has not).
+    /// read during the call only. Errors: outOfMemory, unsupported (ray query asked for and not there), invalidArgument
+    /// (a movable node that the scene has not).
     static Result<GpuScene> create(const Context& context, const Device& device, const Scene& scene,
                                    const ScenePose& pose, const GpuSceneDesc& desc = {});
     GpuScene(GpuScene&&) noexcept;
@@ -284,6 +284,38 @@ private:
     explicit ProbeVolume(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> m_impl;
 };
+
+/// One entry of a G-buffer that lies in a storage buffer, and what recordShading() makes of it. 100 bytes, no gaps.
+struct ShadingSample {
+    /// What is seen there; only surfaces are shaded.
+    enum Kind : std::int32_t { sky = 0, surface = 1, backface = 2 };
+
+    glm::vec3 position{0.0f};
+    std::int32_t kind = sky;
+    glm::vec3 viewDirection{0, 0, -1};   ///< unit, from the viewer to the position
+    float distance = 0;                  ///< metres from the viewer; handed through
+    glm::vec3 geometricNormal{0, 1, 0};  ///< unit, on the viewer's side
+    float metallic = 0;                  ///< 0..1
+    glm::vec3 shadingNormal{0, 1, 0};    ///< unit, on the viewer's side
+    float roughness = 1;                 ///< 0..1, perceptual
+    glm::vec3 albedo{0.0f};              ///< base colour, 0..1
+    glm::vec3 direct{0.0f};              ///< in: emission; out: that and the light of punctual lights, W sr^-1 m^-2
+    glm::vec3 indirect{0.0f};            ///< out: irradiance E of the field, W m^-2; radiance is albedo * E / pi
+};
+
+/// Deferred shading of `count` samples at the address of ShadingSample[count] (a multiple of 4, at most 2^30): punctual
+/// lights with shadow rays and the metallic-roughness material, then the field (null: none). The caller makes the
+/// samples visible to compute shaders before and orders its own reads after: compute shader writes.
+/// Errors: outOfMemory (compiling the passes, the first time), invalidArgument (objects of different devices).
+Result<void> recordShading(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,
+                           ProbeVolume* volume, VkDeviceAddress samples, std::uint32_t count, bool diffuseOnly = false,
+                           Profiler* profiler = nullptr);
+
+/// Linear values to 8-bit sRGB through the tone map: `linear` is the address of vec3[count], `display` of
+/// std::uint32_t[count], red in the lowest byte, alpha 255. Ordered by the caller as above. Errors: outOfMemory.
+Result<void> recordToneMap(VkCommandBuffer commands, const Device& device, VkDeviceAddress linear,
+                           VkDeviceAddress display, std::uint32_t count, const ToneMap& toneMap,
+                           Profiler* profiler = nullptr);
 
 /// Triangles traced on the GPU: closestHits(), occluded() and surfaces() upload, dispatch and wait, so they want large
 /// batches; a Field of the same device traces without leaving the GPU. After a lost device every ray misses, and the

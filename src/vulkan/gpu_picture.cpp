@@ -4,8 +4,7 @@
 #include "kernels/gpu_passes.h"
 #include "surface/picture_desc.h"
 #include "vulkan/gpu_field.h"
-#include "vulkan/gpu_lighting_impl.h"
-#include "vulkan/gpu_scene_impl.h"
+#include "vulkan/shading.h"
 
 namespace probegi::vulkan {
 
@@ -73,24 +72,17 @@ private:
         const Device::Impl& device = m_device.impl();
         const std::string tracer = m_tracer.scene().impl().shaderSuffix();
         m_profiler->recordReset(recorder.commands());
-        // Binds set 0 where a field is; sets stay bound through all passes, which share one layout.
-        if (m_volume) {
-            m_volume->recordGuard(recorder, m_field->desc());
-            recorder.bindVolume(m_volume->set());
-        }
+        if (m_volume) m_volume->recordGuard(recorder, m_field->desc());
         recorder.bindScene(m_tracer.scene().impl().set());
         recorder.push(m_push);
-        const auto pass = [&](const char* name, const std::string& shader, std::size_t threads) {
-            {
-                const PassScope scope(recorder, device, &*m_profiler, name);
-                recorder.dispatchOver(shader, threads);
-            }
-            recorder.computeToCompute();
-        };
-        pass("primary", "picture_primary" + tracer, m_push.sampleCount);
-        pass("direct", "picture_direct" + tracer, m_push.sampleCount);
-        if (m_volume) pass("query", "picture_query", m_push.sampleCount);
-        pass("resolve", "picture_resolve", pixels);
+        {
+            const PassScope scope(recorder, device, &*m_profiler, "primary");
+            recorder.dispatchOver("picture_primary" + tracer, m_push.sampleCount);
+        }
+        recorder.computeToCompute();
+        recordSampleShading(recorder, m_device, m_tracer.scene(), m_volume, m_push, &*m_profiler);
+        const PassScope scope(recorder, device, &*m_profiler, "resolve");
+        recorder.dispatchOver("picture_resolve", pixels);
     }
 
     void store(Picture& picture, std::size_t pixels) const {
@@ -152,15 +144,11 @@ Result<std::vector<std::uint8_t>> toneMapImage(const Device& device, const HdrIm
         const std::span<const glm::vec3> pixels(image.pixels);
         Exchange exchange(device);
         exchange.begin(pixels.size_bytes(), pixels.size() * 4);
-        const kernels::ToneMapPush push{.pixels = addressWords(exchange.add(pixels)),
-                                        .display = addressWords(exchange.out()),
-                                        .count = std::uint32_t(pixels.size()),
-                                        .exposure = toneMap.exposure,
-                                        .filmic = toneMap.filmic ? 1 : 0};
+        const VkDeviceAddress linear = exchange.add(pixels);
         exchange.run(
             [&](const Recorder& recorder) {
-                recorder.push(push);
-                recorder.dispatchOver("tone_map", push.count);
+                orThrow(recordToneMap(recorder.commands(), device, linear, exchange.out(), std::uint32_t(pixels.size()),
+                                      toneMap));
             },
             pixels.size() * 4);
         const auto bytes = exchange.results<std::uint8_t>();
