@@ -27,7 +27,8 @@ install(DIRECTORY include/probegi DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/probegi)
 install(EXPORT probegi_targets NAMESPACE probegi:: DESTINATION ${package_folder})
 
-configure_package_config_file(cmake/probegiConfig.cmake.in probegiConfig.cmake INSTALL_DESTINATION ${package_folder})
+configure_package_config_file(cmake/probegiConfig.cmake.in probegiConfig.cmake INSTALL_DESTINATION ${package_folder}
+    PATH_VARS CMAKE_INSTALL_INCLUDEDIR)
 write_basic_package_version_file(probegiConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/probegiConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/probegiConfigVersion.cmake
     DESTINATION ${package_folder})

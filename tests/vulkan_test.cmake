@@ -20,6 +20,6 @@ function(probegi_vulkan_test name)
     if(older_driver_file)
         gtest_discover_tests(test_${name} TEST_PREFIX mesa22.${name}. TEST_FILTER "-*RayQuery*:*rayQuery*"
             TEST_LIST test_${name}_mesa22 DISCOVERY_TIMEOUT 60
-            PROPERTIES TIMEOUT 600 ENVIRONMENT VK_DRIVER_FILES=${older_driver_file} LABELS "${name};mesa22;${ARG_LABELS}")
+            PROPERTIES TIMEOUT 600 ENVIRONMENT VK_DRIVER_FILES=${older_driver_file} LABELS mesa22)
     endif()
 endfunction()

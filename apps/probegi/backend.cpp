@@ -15,6 +15,7 @@ class CpuBackend final : public Backend {
 public:
     explicit CpuBackend(Context context) : m_context(std::move(context)) {}
 
+    BackendKind kind() const noexcept override { return BackendKind::cpu; }
     Result<std::unique_ptr<Tracer>> makeTracer(const Scene& scene, const ScenePose& pose) const override {
         return makeEmbreeTracer(m_context, scene, pose);
     }

@@ -33,6 +33,7 @@ void checkBackendOptions(const CLI::App& command, const BackendOptions& options)
 class Backend {
 public:
     virtual ~Backend() = default;
+    virtual BackendKind kind() const noexcept = 0;
     virtual Result<std::unique_ptr<Tracer>> makeTracer(const Scene& scene, const ScenePose& pose) const = 0;
     virtual Result<Field> makeField(const FieldDesc& desc) const = 0;
     virtual Result<RenderedPicture> render(const Tracer& tracer, const Lighting& lighting, const Field* field,

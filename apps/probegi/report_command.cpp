@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 
 struct ReportOptions {
     SceneOptions scene;
+    BackendOptions backend;
     std::vector<std::string> more;
     std::string folder, size = "960x540";
     bool plain = false;
@@ -31,8 +32,8 @@ struct ReportOptions {
 
 const char* const kFooter =
     R"(Writes DIR/report.html, one page that needs nothing else, and beside it the pictures as PNG and EXR and the numbers
-as report.json. Options apply to all scenes. Errors are measured on light that clips at white, whatever the pictures
-are shown with.
+as report.json. Options apply to all scenes; the reference is path traced on the CPU whatever the backend. Errors are
+measured on light that clips at white, whatever the pictures are shown with.
 
 Example: probegi report builtin:atrium -o out
 Example: probegi report builtin:cornell sponza.glb -o out --size 1280x720 --time 60)";
@@ -114,6 +115,8 @@ Result<void> writeReport(const ReportOptions& options, const CLI::App& command) 
     const fs::path folder(options.folder);
     const auto context = makeContext(options.scene.threads);
     if (!context) return tl::unexpected(context.error());
+    const auto backend = openBackend(*context, options.backend);
+    if (!backend) return tl::unexpected(backend.error());
     const auto setups = loadAll(options);
     if (!setups) return tl::unexpected(setups.error());
     if (auto made = makeFolder(folder); !made) return made;
@@ -124,7 +127,7 @@ Result<void> writeReport(const ReportOptions& options, const CLI::App& command) 
     for (std::size_t i = 0; i < setups->size(); ++i) {
         const std::string& name = i == 0 ? options.scene.scene : options.more[i - 1];
         const LoadedSetup& setup = (*setups)[i];
-        const auto rendered = renderForReport(*context, setup, settingsOf(options));
+        const auto rendered = renderForReport(*context, **backend, setup, settingsOf(options));
         if (!rendered) return tl::unexpected(rendered.error());
         auto section = describeScene(*rendered, {folder, filePrefix(name, taken), sceneTitle(name)},
                                      {setup.exposure, !options.plain});
@@ -185,8 +188,10 @@ void addReportCommand(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<ReportOptions>();
     addSceneOptions(*command, options->scene);
     addReportOptions(*command, *options);
+    addBackendOptions(*command, options->backend);
     command->footer(kFooter);
     command->callback([options, command, &exitCode] {
+        checkBackendOptions(*command, options->backend);
         if (const auto done = writeReport(*options, *command); !done) exitCode = printError(done.error());
     });
 }

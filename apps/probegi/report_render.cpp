@@ -74,9 +74,9 @@ Result<FieldResult> runField(Field& field, const Tracer& tracer, const Lighting&
     return result;
 }
 
-Result<MethodResult> drawMethod(const Context& context, const Tracer& tracer, const LoadedSetup& setup,
+Result<MethodResult> drawMethod(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
                                 const ReportSettings& settings, const Field* field) {
-    auto rendered = renderPicture(context, tracer, setup.lighting, field, pictureDesc(setup, settings));
+    auto rendered = backend.render(tracer, setup.lighting, field, pictureDesc(setup, settings));
     if (!rendered) return tl::unexpected(rendered.error());
     MethodResult result;
     result.picture = std::move(rendered->picture);
@@ -95,13 +95,13 @@ Result<void> judge(MethodResult& method, const Picture& reference, const ToneMap
 }
 
 /// The field with and without its leak guard. The second run starts from the first one's light, which it forgets.
-Result<void> drawFields(const Context& context, const Tracer& tracer, const LoadedSetup& setup,
+Result<void> drawFields(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
                         const ReportSettings& settings, RenderedScene& scene) {
     FieldDesc desc;
     desc.grid = setup.grid;
     desc.raysPerProbe = settings.raysPerProbe;
     desc.seed = settings.seed;
-    auto field = Field::create(context, desc);
+    auto field = backend.makeField(desc);
     if (!field) return tl::unexpected(field.error());
     const auto run = [&](LeakGuard guard, FieldResult& result, MethodResult& method) -> Result<void> {
         field->setGuard(guard);
@@ -109,7 +109,7 @@ Result<void> drawFields(const Context& context, const Tracer& tracer, const Load
         if (!done) return tl::unexpected(done.error());
         result = *done;
         result.ratio = percentiles(probeRatios(*field, scene.truth));
-        auto drawn = drawMethod(context, tracer, setup, settings, &*field);
+        auto drawn = drawMethod(backend, tracer, setup, settings, &*field);
         if (!drawn) return tl::unexpected(drawn.error());
         method = std::move(*drawn);
         return {};
@@ -139,7 +139,7 @@ Result<void> drawReference(const PathTracer& pathTracer, const LoadedSetup& setu
 
 }  // namespace
 
-Result<RenderedScene> renderForReport(const Context& context, const LoadedSetup& setup,
+Result<RenderedScene> renderForReport(const Context& context, const Backend& backend, const LoadedSetup& setup,
                                       const ReportSettings& settings) {
     RenderedScene scene;
     scene.triangles = triangleCount(*setup.scene, setup.pose);
@@ -151,15 +151,22 @@ Result<RenderedScene> renderForReport(const Context& context, const LoadedSetup&
     const auto pathTracer = PathTracer::create(context, *setup.scene, setup.pose, **tracer, setup.lighting);
     if (!pathTracer) return tl::unexpected(pathTracer.error());
     scene.prepareSeconds = watch.seconds();
+    std::unique_ptr<Tracer> another;  // where the reference's is not the backend's
+    if (backend.kind() != BackendKind::cpu) {
+        auto made = backend.makeTracer(*setup.scene, setup.pose);
+        if (!made) return tl::unexpected(made.error());
+        another = std::move(*made);
+    }
+    const Tracer& drawing = another ? *another : **tracer;
 
     auto truth = traceProbeTruth(**tracer, *pathTracer, setup.grid, settings.ratioProbes, settings.ratioSamples,
                                  settings.diffuseOnly);
     if (!truth) return tl::unexpected(truth.error());
     scene.truth = std::move(*truth);
-    auto none = drawMethod(context, **tracer, setup, settings, nullptr);
+    auto none = drawMethod(backend, drawing, setup, settings, nullptr);
     if (!none) return tl::unexpected(none.error());
     scene.none = std::move(*none);
-    if (auto done = drawFields(context, **tracer, setup, settings, scene); !done) return tl::unexpected(done.error());
+    if (auto done = drawFields(backend, drawing, setup, settings, scene); !done) return tl::unexpected(done.error());
     if (auto done = drawReference(*pathTracer, setup, settings, scene); !done) return tl::unexpected(done.error());
     for (MethodResult* method : {&scene.none, &scene.leaky, &scene.ddgi})
         if (auto done = judge(*method, scene.reference, {setup.exposure, false}); !done)

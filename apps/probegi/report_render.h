@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "backend.h"
 #include "probe_ratio.h"
 #include "probegi/compare.h"
 #include "scene_setup.h"
@@ -58,7 +59,8 @@ struct RenderedScene {
     ProbeTruth truth;
 };
 
-/// Renders all four pictures. Errors: those of the passes.
-Result<RenderedScene> renderForReport(const Context& context, const LoadedSetup& setup, const ReportSettings& settings);
+/// Renders all four pictures: the reference on the CPU, the others on the backend. Errors: those of the passes.
+Result<RenderedScene> renderForReport(const Context& context, const Backend& backend, const LoadedSetup& setup,
+                                      const ReportSettings& settings);
 
 }  // namespace probegi::tool

@@ -18,6 +18,7 @@ public:
     VulkanBackend(Context context, vulkan::Device device, vulkan::TracerKind tracer)
         : m_context(std::move(context)), m_device(std::move(device)), m_tracer(tracer) {}
 
+    BackendKind kind() const noexcept override { return BackendKind::vulkan; }
     Result<std::unique_ptr<Tracer>> makeTracer(const Scene& scene, const ScenePose& pose) const override {
         vulkan::GpuSceneDesc desc;
         desc.tracer = m_tracer;

@@ -162,13 +162,17 @@ struct GpuSceneDesc {
     /// Keep the instances of animated nodes apart, so that recordPose() can move them; otherwise meshes that are placed
     /// once are merged, which traces a little faster.
     bool movable = false;
+    /// Nodes that recordPose() can move though no animation does: an engine's own moving objects. Their children move
+    /// with them. Read during the call only.
+    std::span<const int> movableNodes{};
 };
 
 /// A scene's triangles, materials and textures in GPU memory, with what the tracer needs to find hits.
 class GpuScene {
 public:
     /// Builds the BVH on the context's threads, allocates, and fills staging memory. The scene must be valid; it is
-    /// read during the call only. Errors: outOfMemory, unsupported (ray query asked for and not there).
+    /// read during the call only. Errors: outOfMemory, unsupported (ray query asked for and not there), invalidArgument (a
+    /// movable node that the scene has not).
     static Result<GpuScene> create(const Context& context, const Device& device, const Scene& scene,
                                    const ScenePose& pose, const GpuSceneDesc& desc = {});
     GpuScene(GpuScene&&) noexcept;
@@ -180,7 +184,7 @@ public:
     void recordUpload(VkCommandBuffer commands);
     /// Frees the staging memory. The command buffer of recordUpload() must have finished.
     void releaseStaging() noexcept;
-    /// Moves the instances of animated nodes (GpuSceneDesc::movable) and refits the top level. Orders itself against
+    /// Moves the instances of GpuSceneDesc::movable and movableNodes, and refits the top level. Orders itself against
     /// compute work before and after it in the queue. Errors: invalidArgument (the pose is of another scene).
     Result<void> recordPose(VkCommandBuffer commands, const ScenePose& pose);
 

@@ -124,8 +124,9 @@ glm::vec3 queryOne(const FieldView& view, FieldQuery query, const Guard& guard) 
     const Real dx = kCornerX * grid.spacing.x - fromBase.x;
     const Real dy = kCornerY * grid.spacing.y - fromBase.y;
     const Real dz = kCornerZ * grid.spacing.z - fromBase.z;
-    const Real length = wide::sqrt(dx * dx + dy * dy + dz * dz) + 1e-20f;
-    const Real cosToProbe = (dx * query.normal.x + dy * query.normal.y + dz * query.normal.z) / length;
+    const Real length = wide::sqrt(dx * dx + dy * dy + dz * dz);
+    const Real cosToProbe =
+        wide::cosineToProbe(dx * query.normal.x + dy * query.normal.y + dz * query.normal.z, length, view.minSpacing);
 
     const std::int32_t strideY = grid.counts.x, strideZ = grid.counts.x * grid.counts.y;
     const std::int32_t first = std::int32_t(base.x) + strideY * std::int32_t(base.y) + strideZ * std::int32_t(base.z);

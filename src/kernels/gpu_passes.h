@@ -71,7 +71,7 @@ struct BlendPush {
 // Probe rays (trace_probes.comp) and their shading (shade_probes.comp).
 struct TracePush {
     uvec2 directions;  // vec3[rays]
-    uvec2 hits;        // GpuHit[probe][ray]
+    uvec2 hits;        // Hit[ray][probe]
     uvec2 rayData;     // RayDatum[probe][ray]
     uvec2 lighting;    // LightingBlock
     int rays;

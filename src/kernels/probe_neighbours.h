@@ -22,9 +22,9 @@ KERNEL_FN float neighbourVisibility(vec2 moments, float distance) {
 // Weight of one probe of the block. `outside`: outsideWeight(); `toProbe`: from the point, metres; `visible`: what the
 // guard says, 0..1.
 KERNEL_FN float neighbourWeight(float outside, vec3 toProbe, vec3 normal, float visible, float minSpacing) {
-    const float distance = length(toProbe) + kNoLength;
+    const float distance = length(toProbe);
     const float near = minSpacing / (minSpacing + distance);
-    const float facing = backfaceWeight(dot(toProbe, normal) / distance);
+    const float facing = backfaceWeight(cosineToProbe(dot(toProbe, normal), distance, minSpacing));
     return outside * near * near * near * near * crushWeight(facing * visible);
 }
 

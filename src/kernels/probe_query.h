@@ -35,6 +35,15 @@ KERNEL_FN Real trilinearFactor(Real corner, float alpha) {
     return max(Real(kMinTrilinear), corner * alpha + (1.0f - corner) * (1.0f - alpha));
 }
 
+// Share of the smallest spacing within which a probe has no side. A point on a probe itself (those beyond the grid are
+// moved to its faces, and may land there) sees it in no direction, and the rounding of its place must not choose one.
+KERNEL_CONST float kProbeRadius = 1e-3f;
+
+// Cosine between the normal and the direction to the probe, from their product and the probe's distance.
+KERNEL_FN Real cosineToProbe(Real product, Real distance, float minSpacing) {
+    return product / (distance + kProbeRadius * minSpacing);
+}
+
 // Smooth backface weight: ((cos + 1) / 2)^2 and a floor, with the cosine between the normal and the direction to the
 // probe.
 KERNEL_FN Real backfaceWeight(Real cosToProbe) {

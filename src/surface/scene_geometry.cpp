@@ -51,8 +51,14 @@ Bounds SceneGeometry::bounds() const {
 }
 
 InstancePredicate animatedInstances(const Scene& scene) {
+    return movableInstances(scene, true, {});
+}
+
+InstancePredicate movableInstances(const Scene& scene, bool animated, std::span<const int> nodes) {
     std::vector<bool> moves(scene.nodes.size(), false);
-    for (const AnimationChannel& channel : scene.animations) moves[std::size_t(channel.node)] = true;
+    for (const int node : nodes) moves[std::size_t(node)] = true;
+    if (animated)
+        for (const AnimationChannel& channel : scene.animations) moves[std::size_t(channel.node)] = true;
     // Parents come first, so one pass hands the motion down.
     for (std::size_t i = 0; i < moves.size(); ++i) {
         const int parent = scene.nodes[i].parent;

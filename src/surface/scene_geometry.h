@@ -42,6 +42,9 @@ struct SceneGeometry {
 
 /// The instances that the scene's animations move: their node or one of its ancestors has a channel.
 InstancePredicate animatedInstances(const Scene& scene);
+/// The instances of some nodes and of what hangs below them, and where `animated` says so those that animations move.
+/// The nodes must be the scene's.
+InstancePredicate movableInstances(const Scene& scene, bool animated, std::span<const int> nodes);
 
 /// Whether a transform can be undone. One that flattens the mesh cannot, up to rounding.
 bool invertible(const glm::mat4& m);

@@ -1,5 +1,9 @@
+#include <fmt/format.h>
+
 #include <map>
 
+#include "bvh/binary_tree.h"
+#include "bvh/wide_bvh.h"
 #include "surface/lighting.h"
 #include "vulkan/errors.h"
 #include "vulkan/gpu_scene_impl.h"
@@ -27,11 +31,19 @@ std::map<int, glm::mat4> transformsByNode(const ScenePose& pose) {
 
 GpuScene::Impl::Impl(const Context& context, const Device& d, const Scene& scene, const ScenePose& pose,
                      const GpuSceneDesc& desc)
-    : device(d), bounds(pose.bounds) {
+    : device(d) {
     const TracerKind kind = chooseTracer(device, desc.tracer);
+    for (const int node : desc.movableNodes)
+        if (node < 0 || std::size_t(node) >= scene.nodes.size())
+            throw Failure(ErrorCode::invalidArgument,
+                          fmt::format("movableNodes has {}, but the scene has {} nodes", node, scene.nodes.size()));
     const SceneGeometry geometry =
-        SceneGeometry::gather(scene, pose, desc.movable ? animatedInstances(scene) : InstancePredicate());
+        SceneGeometry::gather(scene, pose, movableInstances(scene, desc.movable, desc.movableNodes));
     placements = geometry.placements;
+    bounds = geometry.bounds();
+    worldBounds = geometry.world.bounds();
+    hasWorld = !geometry.world.empty();
+    for (const SurfaceGroup& group : geometry.groups) groupBounds.push_back(group.bounds());
     data = packScene(geometry, scene);
     upload();
     tracer = kind == TracerKind::rayQuery ? makeRayQuerySceneTracer(device, geometry, data, vertices.address())
@@ -74,6 +86,13 @@ void GpuScene::Impl::writeSet() {
     vk::WriteDescriptorSet write(set(), 1, 0, 1, vk::DescriptorType::eAccelerationStructureKHR);
     write.pNext = &structures;
     on.device.updateDescriptorSets(write, {});
+}
+
+Bounds GpuScene::Impl::placedBounds() const {
+    Bounds all = hasWorld ? worldBounds : kNothing;
+    for (const Placement& p : placements)
+        all = united(all, probegi::placedBounds(groupBounds[std::size_t(p.group)], p.toWorld));
+    return all;
 }
 
 kernels::SceneConstants GpuScene::Impl::constants() const {
@@ -132,7 +151,7 @@ Result<void> GpuScene::recordPose(VkCommandBuffer commands, const ScenePose& pos
         std::vector<kernels::GpuInstance> instances;
         for (const Placement& placement : placements) instances.push_back(packInstance(placement));
         m_impl->placements = std::move(placements);
-        m_impl->bounds = pose.bounds;
+        m_impl->bounds = m_impl->placedBounds();
         const Recorder recorder(m_impl->device.impl(), commands);
         recorder.orderAll();
         recorder.write(m_impl->instances, std::as_bytes(std::span(instances)));

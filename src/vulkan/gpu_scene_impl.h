@@ -11,10 +11,14 @@ struct GpuScene::Impl {
     vk::DescriptorSet set() const noexcept { return *sets.front(); }
     std::string shaderSuffix() const { return tracer->shaderSuffix(); }
     kernels::SceneConstants constants() const;
+    Bounds placedBounds() const;  // where the placements are now
 
     Device device;
     std::vector<Placement> placements;
     Bounds bounds;
+    Bounds worldBounds;  // of what is merged; meaningless without hasWorld
+    bool hasWorld = false;
+    std::vector<Bounds> groupBounds;  // in their own spaces
     Buffer vertices, triangles, uv1, tangents, meshes, instances, materials, textures, texels, srgbTable;
     Buffer constantsBuffer;
     std::unique_ptr<SceneTracer> tracer;

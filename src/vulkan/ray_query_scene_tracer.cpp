@@ -90,10 +90,12 @@ private:
             const std::size_t end =
                 index + 1 < data.meshes.size() ? data.meshes[index + 1].firstVertex : data.vertices.size();
             const auto highest = std::uint32_t(std::max<std::size_t>(end, mesh.firstVertex + 1) - mesh.firstVertex - 1);
+            // A mesh without triangles may begin where the buffers end: its addresses would be somebody else's.
+            const std::uint64_t vertex = mesh.triangleCount ? mesh.firstVertex : 0;
+            const std::uint64_t triangle = mesh.triangleCount ? mesh.firstTriangle : 0;
             const vk::AccelerationStructureGeometryTrianglesDataKHR triangles(
-                vk::Format::eR32G32B32Sfloat, vertices + mesh.firstVertex * sizeof(kernels::GpuVertex),
-                sizeof(kernels::GpuVertex), highest, vk::IndexType::eUint32,
-                m_indexBuffer.address() + 12 * std::uint64_t(mesh.firstTriangle));
+                vk::Format::eR32G32B32Sfloat, vertices + vertex * sizeof(kernels::GpuVertex),
+                sizeof(kernels::GpuVertex), highest, vk::IndexType::eUint32, m_indexBuffer.address() + 12 * triangle);
             geometries.push_back({vk::GeometryTypeKHR::eTriangles, triangles,
                                   geometry == 0 ? vk::GeometryFlagBitsKHR::eOpaque : vk::GeometryFlagsKHR()});
             ranges.emplace_back(mesh.triangleCount);

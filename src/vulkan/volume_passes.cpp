@@ -14,7 +14,7 @@ namespace {
 
 // Of blend_irradiance.comp and blend_visibility.comp.
 constexpr std::uint32_t kIrradianceProbes = 16, kIrradianceTexels = 64;
-constexpr std::uint32_t kVisibilityProbes = 4, kVisibilityTexels = 64;
+constexpr std::uint32_t kVisibilityProbes = 4;
 constexpr std::size_t kHitBytes = 24;  // Hit of shaders/types.glsl
 
 std::uint32_t groups(std::size_t count, std::uint32_t size) {
@@ -239,8 +239,7 @@ void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& fram
     }
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "blend visibility");
-        recorder.dispatchOver("blend_visibility", groups(m_layout.probes, kVisibilityProbes),
-                              groups(m_layout.visibilityTexels, kVisibilityTexels));
+        recorder.dispatchOver("blend_visibility", groups(m_layout.probes, kVisibilityProbes), 1);
     }
 }
 

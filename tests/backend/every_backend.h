@@ -39,6 +39,12 @@ FieldDesc smallDesc();
 std::vector<RayDatum> constantData(const FieldDesc& desc, glm::vec3 radiance, float distance);
 /// Radiance over two decades, distances up to 3 m, every seventh ray on a backface.
 std::vector<RayDatum> randomData(const FieldDesc& desc, std::uint32_t seed);
+/// The grid moved a little: from a probe in the very plane of a wall, rounding decides which of its rays hit the wall.
+inline GridDesc offTheWalls(GridDesc grid) {
+    grid.origin += grid.spacing * glm::vec3(0.037f, 0.053f, 0.041f);
+    return grid;
+}
+
 /// Points in smallDesc()'s grid and up to two metres around it, all normals, viewers on the normal's side and not.
 std::vector<FieldQuery> randomQueries(int count, std::uint32_t seed = 4);
 /// Probes' directions of texel centres: x, y of a map of `size` texels.

@@ -20,7 +20,7 @@ protected:
         const Lighting lighting{pose.lights, scene.sky};
         FieldDesc fieldDesc;
         fieldDesc.raysPerProbe = 64;
-        fieldDesc.grid = *placeGrid(pose.bounds, {.counts = {6, 5, 5}});
+        fieldDesc.grid = offTheWalls(*placeGrid(pose.bounds, {.counts = {6, 5, 5}}));
         const auto taken = [&](const Backend& backend) {
             const auto tracer = made(backend.makeTracer(context, scene, pose));
             Field field = made(backend.makeField(context, fieldDesc));

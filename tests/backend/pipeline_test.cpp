@@ -17,7 +17,7 @@ struct Lit {
         : scene(std::move(own)), pose(poseAt(scene)), lighting{pose.lights, scene.sky} {
         const auto valid = validate(scene);
         EXPECT_TRUE(valid) << valid.error().message;
-        desc.grid = *placeGrid(pose.bounds, placement);
+        desc.grid = offTheWalls(*placeGrid(pose.bounds, placement));
         auto tried = backend.makeTracer(context, scene, pose);
         if (!tried) throw std::runtime_error(tried.error().message);
         tracer = std::move(*tried);

@@ -113,9 +113,10 @@ Scene richScene() {
     addQuad(scene, {-0.4f, 0, 0.3f}, {0.9f, 0, 0}, {0, 1.1f, 0}, mask);
     addQuad(scene, {0.6f, 1.8f, -1}, {0.6f, 0, 0}, {0, 0, 0.6f}, lit);  // faces down
     addQuad(scene, {1.2f, 0, 0.2f}, {0, 0, 0.9f}, {0, 1.2f, 0}, matt);  // its back is to the hall's middle
+    // A little above the floor: in one plane with it, either face would be the right answer to a ray.
     const int cube = addCubeMesh(scene, matt);
-    scene.addNode({.translation = {-1.1f, 0.45f, -0.6f}, .scale = glm::vec3(0.9f), .mesh = cube});
-    scene.addNode({.translation = {0.5f, 0.3f, -0.7f},
+    scene.addNode({.translation = {-1.1f, 0.46f, -0.6f}, .scale = glm::vec3(0.9f), .mesh = cube});
+    scene.addNode({.translation = {0.5f, 0.31f, -0.7f},
                    .rotation = glm::angleAxis(0.5f, glm::vec3(0, 1, 0)),
                    .scale = {-0.5f, 0.6f, 0.5f},
                    .mesh = cube});

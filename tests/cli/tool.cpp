@@ -1,10 +1,13 @@
 #include "cli/tool.h"
 
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -34,6 +37,24 @@ ToolRun runTool(const std::vector<std::string>& arguments) {
     int status = 0;
     if (waitpid(child, &status, 0) != child) throw std::runtime_error("cannot wait for " + program);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(out), readText(err)};
+}
+
+void expectRefused(const std::vector<std::string>& arguments, const std::string& mentions, int exitCode) {
+    SCOPED_TRACE(testing::PrintToString(arguments));
+    const ToolRun run = runTool(arguments);
+    EXPECT_EQ(run.exitCode, exitCode);
+    EXPECT_EQ(run.out, "");
+    EXPECT_THAT(run.err, testing::StartsWith("error: "));
+    EXPECT_THAT(run.err, testing::HasSubstr(mentions));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+EnvironmentVariable::EnvironmentVariable(std::string name, const std::string& value) : m_name(std::move(name)) {
+    setenv(m_name.c_str(), value.c_str(), 1);
+}
+
+EnvironmentVariable::~EnvironmentVariable() {
+    unsetenv(m_name.c_str());
 }
 
 TemporaryFolder::TemporaryFolder() {

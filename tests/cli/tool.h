@@ -15,6 +15,21 @@ struct ToolRun {
 /// Runs the program and waits for it.
 ToolRun runTool(const std::vector<std::string>& arguments);
 
+/// Expects a run to be refused: this exit code, nothing on stdout, one sentence on stderr with `mentions` in it.
+void expectRefused(const std::vector<std::string>& arguments, const std::string& mentions, int exitCode);
+
+/// A variable of the environment of the programs that are run while the object lives.
+class EnvironmentVariable {
+public:
+    EnvironmentVariable(std::string name, const std::string& value);
+    ~EnvironmentVariable();
+    EnvironmentVariable(const EnvironmentVariable&) = delete;
+    EnvironmentVariable& operator=(const EnvironmentVariable&) = delete;
+
+private:
+    std::string m_name;
+};
+
 /// An empty folder that goes away with its object.
 class TemporaryFolder {
 public:

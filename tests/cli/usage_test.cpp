@@ -1,25 +1,11 @@
 #include <gmock/gmock.h>
 
-#include <algorithm>
-
 #include "cli/tool.h"
 
 namespace probegi::test {
 namespace {
 
 using testing::HasSubstr;
-using testing::StartsWith;
-
-// Non-zero, silent on stdout, and one sentence on stderr.
-void expectRefused(const std::vector<std::string>& arguments, const std::string& mentions, int exitCode) {
-    SCOPED_TRACE(testing::PrintToString(arguments));
-    const ToolRun run = runTool(arguments);
-    EXPECT_EQ(run.exitCode, exitCode);
-    EXPECT_EQ(run.out, "");
-    EXPECT_THAT(run.err, StartsWith("error: "));
-    EXPECT_THAT(run.err, HasSubstr(mentions));
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-}
 
 class BadValue : public testing::TestWithParam<std::pair<std::string, std::string>> {};
 
@@ -48,7 +34,8 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{"--fov", "180"}, std::pair{"--volume", "0,0,0:1"}, std::pair{"--volume", "0,0,0:0:4x4x4"},
                     std::pair{"--volume", "0,0,0:1:1x4x4"}, std::pair{"--volume", "0,0:1:4x4x4"},
                     std::pair{"--time-of-scene", "late"}, std::pair{"--wall", "1"}, std::pair{"--albedo", "1"},
-                    std::pair{"--emission", "-1"}, std::pair{"--power", "0"}, std::pair{"--radius", "0"}),
+                    std::pair{"--emission", "-1"}, std::pair{"--power", "0"}, std::pair{"--radius", "0"},
+                    std::pair{"--backend", "cuda"}, std::pair{"--tracer", "embree"}),
     [](const auto& instance) {
         std::string name = instance.param.first + "_" + std::to_string(instance.index);
         std::erase_if(name, [](char c) { return c == '-'; });
@@ -76,7 +63,7 @@ TEST(Usage, ProbesAndVolumeExcludeEachOther) {
 }
 
 TEST(Usage, HelpHasAnExample) {
-    for (const char* command : {"render", "compare", "info", "scenes", "bench", "report"}) {
+    for (const char* command : {"render", "compare", "info", "scenes", "bench", "report", "devices"}) {
         const ToolRun run = runTool({command, "--help"});
         EXPECT_EQ(run.exitCode, 0) << command;
         EXPECT_THAT(run.out, HasSubstr("Example: probegi ")) << command;
@@ -96,10 +83,11 @@ TEST(Usage, MainHelpSaysWhatToTypeFirst) {
 TEST(Usage, HelpOfRenderListsEveryOption) {
     const std::string help = runTool({"render", "--help"}).out;
     for (const char* option :
-         {"--output",        "--method",       "--size",      "--camera",  "--probes",  "--rays",     "--frames",
-          "--spp",           "--time",         "--seed",      "--threads", "--aov",     "--exposure", "--sun",
-          "--point",         "--sky",          "--look-from", "--look-at", "--fov",     "--volume",   "--stats",
-          "--time-of-scene", "--diffuse-only", "--wall",      "--albedo",  "--emission"})
+         {"--output",   "--method",   "--size",    "--camera",        "--probes",       "--rays",
+          "--frames",   "--spp",      "--time",    "--seed",          "--threads",      "--aov",
+          "--exposure", "--sun",      "--point",   "--sky",           "--look-from",    "--look-at",
+          "--fov",      "--volume",   "--stats",   "--time-of-scene", "--diffuse-only", "--wall",
+          "--albedo",   "--emission", "--backend", "--device",        "--tracer",       "--shader-cache"})
         EXPECT_THAT(help, HasSubstr(option));
 }
 

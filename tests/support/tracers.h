@@ -17,7 +17,9 @@ namespace probegi::test {
 struct TracerMaker {
     const char* name;
     Result<std::unique_ptr<Tracer>> (*make)(const Context&, const Scene&, const ScenePose&);
-    bool (*possible)();           ///< whether this machine can run it; where not, make() must refuse
+    bool (*possible)();  ///< whether this machine can run it; where not, make() must refuse
+    /// Shares of rays aimed exactly at edges and at vertices of a closed mesh that may get through.
+    double edgeLoss = 0, vertexLoss = 0.003;
     bool tellsInstances = false;  ///< Hit::instance is the number of a placement, or -1 where meshes were merged
 
     friend std::ostream& operator<<(std::ostream& out, const TracerMaker& maker) { return out << maker.name; }
@@ -32,10 +34,13 @@ Result<std::unique_ptr<Tracer>> makeVulkanTracer(const Context& context, const S
 
 inline std::span<const TracerMaker> tracerMakers() {
     static const TracerMaker makers[] = {
-        {"embree", makeEmbreeTracer, [] { return true; }, true},
+        {"embree", makeEmbreeTracer, [] { return true; }, 0, 0.003, true},
 #ifdef PROBEGI_TEST_VULKAN
-        {"vulkanBvh", makeVulkanTracer<vulkan::TracerKind::bvh>, [] { return true; }},
-        {"vulkanRayQuery", makeVulkanTracer<vulkan::TracerKind::rayQuery>, [] { return testDevice().rayQuery(); }},
+        {"vulkanBvh", makeVulkanTracer<vulkan::TracerKind::bvh>, [] { return true; }, 0, 0},
+        {"vulkanRayQuery", makeVulkanTracer<vulkan::TracerKind::rayQuery>, [] { return testDevice().rayQuery(); },
+         // The driver's: Vulkan recommends watertight intersection and does not demand it. Mesa 25.0's software device
+         // was measured to lose 7e-5 at edges and 0.6 % at vertices.
+         3e-4, 0.012},
 #endif
     };
     return makers;

@@ -191,6 +191,8 @@ TEST_P(TracerAgreement, surfacesLookTheSame) {
     std::size_t compared = 0, differing = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!reference[i].valid() || !sameDistance(own[i], reference[i], kRelative)) continue;
+        // Sponza has surfaces in the very same place: which of them is hit is a tie, and inSponza looks at those.
+        if (own[i].primitive != reference[i].primitive || own[i].geometry != reference[i].geometry) continue;
         ++compared;
         const Surface &a = ownSurfaces[i], &b = surfaces[i];
         const bool same =
@@ -201,8 +203,8 @@ TEST_P(TracerAgreement, surfacesLookTheSame) {
         differing += same ? 0 : 1;
     }
     EXPECT_GT(compared, rays.size() / 2);
-    // Two surfaces in one place, or a texel's edge within rounding.
-    EXPECT_LT(double(differing), 2e-3 * double(compared));
+    // A texel's edge within rounding.
+    EXPECT_LT(double(differing), 2e-4 * double(compared));
     RecordProperty("differing", std::to_string(differing));
 }
 

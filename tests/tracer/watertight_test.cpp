@@ -87,7 +87,8 @@ std::size_t escapesAtEdges(const TracerMaker& maker, bool instanced, std::size_t
 TEST_P(TracerWatertight, RaysAtEdges) {
     std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
     for (const bool instanced : {false, true})
-        EXPECT_EQ(escapesAtEdges(GetParam(), instanced, 64, uniform), 0u) << (instanced ? "instanced" : "merged");
+        EXPECT_LE(double(escapesAtEdges(GetParam(), instanced, 64, uniform)), GetParam().edgeLoss * 64 * kBatch)
+            << (instanced ? "instanced" : "merged");
 }
 
 TEST_P(TracerWatertight, RaysAtVerticesHardlyEverEscape) {
@@ -95,7 +96,7 @@ TEST_P(TracerWatertight, RaysAtVerticesHardlyEverEscape) {
     // lost (16 % without the robust flag, which also lost 1.8 % at edges). A random ray does not meet a vertex.
     for (const bool instanced : {false, true}) {
         const std::size_t lost = escapesAtEdges(GetParam(), instanced, 32, [](std::mt19937&) { return 0.0f; });
-        EXPECT_LT(double(lost), 0.003 * 32 * kBatch) << (instanced ? "instanced" : "merged");
+        EXPECT_LE(double(lost), GetParam().vertexLoss * 32 * kBatch) << (instanced ? "instanced" : "merged");
     }
 }
 

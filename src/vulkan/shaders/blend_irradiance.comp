@@ -1,7 +1,9 @@
 // New irradiance of all probes = weights x ray data, one matrix product for the frame since all probes share the rays'
 // directions; then encoding, hysteresis, dithered storage and the border, fused (DDGI paper, section 2.3, eq. 1,
 // Listings 1 and 3). A work group makes kTexels texels of kProbes probes, in steps of kRays rays through shared memory;
-// a thread holds a block of 4 texels x 4 probes in registers, so that eight loads feed 48 multiply-adds.
+// a thread holds a block of 4 texels x 4 probes in registers, so that seven loads of 16 floats feed 48 multiply-adds.
+// (A GPU's shared memory gives a register a clock, the same for all threads or not: a thread for a texel of eight
+// probes would read 25 floats for 24 multiply-adds.)
 #include "ray_data.glsl"
 #include "volume.glsl"
 
@@ -17,31 +19,34 @@ layout(push_constant, scalar) uniform Push {
 const int kTexels = 64;
 const int kProbes = 16;
 const int kRays = 16;
-const int kBlock = 4;  // texels, and probes, of a thread
+const int kBlock = 4;  // texels, and probes, of a thread; a thread loads a ray of as many probes
 const int kTexelThreads = kTexels / kBlock;
 
-shared vec4 radiance[kRays][kProbes];  // w: 1 where the ray counts
-shared float weights[kRays][kTexels];
-shared uint hits[kProbes];
-shared uint backfaces[kProbes];
+const int kFours = kProbes / 4;
 
-// The group's rays from `first` on. What is beyond the last ray or probe counts as nothing.
-void loadRays(int firstProbe, int firstRay) {
-    for (int i = int(gl_LocalInvocationID.x); i < kRays * kProbes; i += int(gl_WorkGroupSize.x)) {
-        const int ray = firstRay + i % kRays;
-        const int probe = firstProbe + i / kRays;
-        vec4 value = vec4(0.0);
-        if (ray < push.rays && probe < push.probes) {
-            const RayDatum d = RayData(push.rayData).at[probe * push.rays + ray];
-            const float distance = safeDistance(d.distance);
-            const bool backface = hitBackface(distance);
-            if (!backface)
-                value = vec4(safeRadiance(d.radiance.x), safeRadiance(d.radiance.y), safeRadiance(d.radiance.z), 1.0);
-            if (distance < kMissDistance) atomicAdd(hits[i / kRays], 1);
-            if (backface) atomicAdd(backfaces[i / kRays], 1);
-        }
-        radiance[i % kRays][i / kRays] = value;
+// Of four probes: red, green, blue, and 1 where the ray counts.
+shared vec4 radiance[kFours][4][kRays];
+shared float weights[kRays][kTexels];
+shared uvec4 counts[kFours][kRays];  // of hits and, 16 bits higher, of backfaces, that a thread has seen while loading
+
+// The group's rays from `first` on, a ray of four probes a thread. What is beyond the last ray or probe counts as
+// nothing. Whole vectors are stored: no two threads write to the same one.
+void loadRays(int firstProbe, int firstRay, inout uvec4 seen) {
+    const int four = int(gl_LocalInvocationID.x) / kRays;
+    const int i = int(gl_LocalInvocationID.x) % kRays;
+    const int ray = firstRay + i;
+    vec4 value[4] = vec4[](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+    for (int p = 0; p < 4; ++p) {
+        const int probe = firstProbe + 4 * four + p;
+        if (ray >= push.rays || probe >= push.probes) continue;
+        const RayDatum d = RayData(push.rayData).at[probe * push.rays + ray];
+        const float distance = safeDistance(d.distance);
+        const bool backface = hitBackface(distance);
+        for (int c = 0; c < 3; ++c) value[c][p] = backface ? 0.0 : safeRadiance(d.radiance[c]);
+        value[3][p] = backface ? 0.0 : 1.0;
+        seen[p] += (distance < kMissDistance ? 1u : 0u) + (backface ? 0x10000u : 0u);
     }
+    for (int c = 0; c < 4; ++c) radiance[four][c][i] = value[c];
 }
 
 void loadWeights(int firstTexel, int texels, int firstRay) {
@@ -72,57 +77,55 @@ void store(int probe, int texel, vec3 newMean) {
     }
 }
 
+void storeBackfaceShare(int local, int probe) {
+    uint sum = 0;
+    for (int i = 0; i < kRays; ++i) sum += counts[local / 4][i][local % 4];
+    const float share = backfaceShareOf(int(sum >> 16u), int(sum & 0xffffu));
+    probegiStates.backfaceShare[probe] = mix(share, probegiStates.backfaceShare[probe], push.visibilityHysteresis);
+}
+
 void main() {
     const int texels = probegiVolume.irradianceTexels * probegiVolume.irradianceTexels;
     const int firstProbe = int(blockIndex()) * kProbes;
     const int firstTexel = int(gl_WorkGroupID.y) * kTexels;
     const int thread = int(gl_LocalInvocationID.x);
     const int myTexel = thread % kTexelThreads;
-    const int myProbe = thread / kTexelThreads * kBlock;
-    if (thread < kProbes) {
-        hits[thread] = 0;
-        backfaces[thread] = 0;
-    }
-    vec4 sum[kBlock][kBlock];
+    const int myFour = thread / kTexelThreads;
+    uvec4 seen = uvec4(0u);
+    vec4 sum[kBlock][4];  // [texel][channel], a component for each probe
     for (int t = 0; t < kBlock; ++t)
-        for (int p = 0; p < kBlock; ++p) sum[t][p] = vec4(0.0);
+        for (int c = 0; c < 4; ++c) sum[t][c] = vec4(0.0);
 
     for (int ray = 0; ray < push.rays; ray += kRays) {
         barrier();
-        loadRays(firstProbe, ray);
+        loadRays(firstProbe, ray, seen);
         loadWeights(firstTexel, texels, ray);
         barrier();
         for (int k = 0; k < kRays; ++k) {
-            vec4 l[kBlock];
             float w[kBlock];
-            for (int i = 0; i < kBlock; ++i) {
-                l[i] = radiance[k][myProbe + i];
-                w[i] = weights[k][myTexel + kTexelThreads * i];
+            for (int t = 0; t < kBlock; ++t) w[t] = weights[k][myTexel + kTexelThreads * t];
+            for (int c = 0; c < 3; ++c) {
+                const vec4 l = radiance[myFour][c][k];
+                for (int t = 0; t < kBlock; ++t) sum[t][c] += w[t] * l;
             }
-            for (int t = 0; t < kBlock; ++t) {
-                for (int p = 0; p < kBlock; ++p) {
-                    sum[t][p].xyz += w[t] * l[p].xyz;
-                    if (kExcludeBackfaces != 0) sum[t][p].w += w[t] * l[p].w;
-                }
-            }
+            if (kExcludeBackfaces != 0)
+                for (int t = 0; t < kBlock; ++t) sum[t][3] += w[t] * radiance[myFour][3][k];
         }
     }
     for (int t = 0; t < kBlock; ++t) {
-        for (int p = 0; p < kBlock; ++p) {
+        for (int p = 0; p < 4; ++p) {
             const int texel = firstTexel + myTexel + kTexelThreads * t;
-            const int probe = firstProbe + myProbe + p;
+            const int probe = firstProbe + 4 * myFour + p;
             if (texel >= texels || probe >= push.probes) continue;
-            const vec4 mean = sum[t][p];
+            const vec4 mean = vec4(sum[t][0][p], sum[t][1][p], sum[t][2][p], sum[t][3][p]);
             store(probe, texel, kExcludeBackfaces == 0 ? mean.xyz
                                                        : vec3(withoutBackfaces(mean.x, mean.w),
                                                               withoutBackfaces(mean.y, mean.w),
                                                               withoutBackfaces(mean.z, mean.w)));
         }
     }
+    counts[thread / kRays][thread % kRays] = seen;
     barrier();
-    const int probe = firstProbe + thread;
-    if (gl_WorkGroupID.y == 0 && thread < kProbes && probe < push.probes) {
-        const float share = backfaceShareOf(int(backfaces[thread]), int(hits[thread]));
-        probegiStates.backfaceShare[probe] = mix(share, probegiStates.backfaceShare[probe], push.visibilityHysteresis);
-    }
+    if (gl_WorkGroupID.y == 0 && thread < kProbes && firstProbe + thread < push.probes)
+        storeBackfaceShare(thread, firstProbe + thread);
 }

@@ -1,6 +1,6 @@
 // New distance moments of all probes from the frame's sparse weights, then hysteresis, dithered storage and the border
-// (DDGI paper, section 2.3). A thread makes one texel of kProbes probes; the lists of neighbouring texels lie side by
-// side, and a probe's distances stay in the first-level cache.
+// (DDGI paper, section 2.3). A work group makes all texels of kProbes probes. Their distances are read once, into
+// shared memory, side by side: a texel's entry is one load of them for all probes.
 #include "ray_data.glsl"
 #include "volume.glsl"
 
@@ -16,6 +16,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Ray
 };
 
 const int kProbes = 4;
+const int kRays = 256;  // that lie in shared memory at a time
+
+shared vec4 distances[kRays];  // as fractions of the farthest, of each probe
 
 void store(int probe, int texel, vec2 newMoments) {
     const int size = probegiVolume.visibilityTexels;
@@ -33,24 +36,45 @@ void store(int probe, int texel, vec2 newMoments) {
     }
 }
 
+// The group's rays from `first` on. Probes beyond the last repeat it: their result is not stored.
+void loadDistances(int firstProbe, int first) {
+    const int count = min(kRays, push.rays - first);
+    for (int i = int(gl_LocalInvocationID.x); i < count; i += int(gl_WorkGroupSize.x)) {
+        vec4 d;
+        for (int p = 0; p < kProbes; ++p) {
+            const int probe = min(firstProbe + p, push.probes - 1);
+            const float distance = RayData(push.rayData).at[probe * push.rays + first + i].distance;
+            d[p] = visibilityDistance(safeDistance(distance), push.maxDistance);
+        }
+        distances[i] = d;
+    }
+}
+
 void main() {
     const int texels = probegiVolume.visibilityTexels * probegiVolume.visibilityTexels;
-    const int texel = int(gl_WorkGroupID.y * gl_WorkGroupSize.x + gl_LocalInvocationID.x);
-    if (texel >= texels) return;
     const int firstProbe = int(blockIndex()) * kProbes;
-    vec2 sum[kProbes];
-    for (int p = 0; p < kProbes; ++p) sum[p] = vec2(0.0);
-    const uint count = Uints(push.visibilityCounts).at[texel];
-    for (uint k = 0; k < count; ++k) {
-        const GpuRayWeight entry = RayWeights(push.visibilityWeights).at[k * texels + texel];
-        for (int p = 0; p < kProbes; ++p) {
-            // Probes beyond the last repeat it: their result is not stored.
-            const int probe = min(firstProbe + p, push.probes - 1);
-            const float distance = safeDistance(RayData(push.rayData).at[probe * push.rays + int(entry.ray)].distance);
-            const float d = visibilityDistance(distance, push.maxDistance);
-            sum[p] += entry.weight * vec2(d, d * d);
+    for (int firstTexel = 0; firstTexel < texels; firstTexel += int(gl_WorkGroupSize.x)) {
+        const int texel = firstTexel + int(gl_LocalInvocationID.x);
+        const uint count = texel < texels ? Uints(push.visibilityCounts).at[texel] : 0u;
+        vec4 mean = vec4(0.0), meanSquare = vec4(0.0);
+        uint k = 0;
+        for (int first = 0; first < push.rays; first += kRays) {
+            if (firstTexel == 0 || push.rays > kRays) {
+                barrier();
+                loadDistances(firstProbe, first);
+                barrier();
+            }
+            for (; k < count; ++k) {
+                const GpuRayWeight entry = RayWeights(push.visibilityWeights).at[k * texels + texel];
+                const int ray = int(entry.ray) - first;
+                if (ray >= kRays) break;  // entries are in the order of rays
+                const vec4 d = distances[ray];
+                mean += entry.weight * d;
+                meanSquare += entry.weight * (d * d);
+            }
         }
+        for (int p = 0; p < kProbes; ++p)
+            if (texel < texels && firstProbe + p < push.probes)
+                store(firstProbe + p, texel, vec2(mean[p], meanSquare[p]));
     }
-    for (int p = 0; p < kProbes; ++p)
-        if (firstProbe + p < push.probes) store(firstProbe + p, texel, sum[p]);
 }

@@ -44,6 +44,14 @@ layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 3, scalar) PROBEGI_STATES_
 }
 probegiStates;
 
+// For ray data of your own: how many probes there are, and where each stands. Its rays begin there.
+int probegiProbeCount() {
+    return probegiVolume.counts.x * probegiVolume.counts.y * probegiVolume.counts.z;
+}
+vec3 probegiProbePosition(int probe) {
+    return probePlace(gpuProbeCell(probe, probegiVolume.counts), probegiVolume.origin, probegiVolume.spacing);
+}
+
 // What a probe stores towards a normal, encoded. `texel`: octTexelPosition of the normal.
 vec3 probegiStored(ivec3 cell, vec2 texel) {
     const vec2 at = gpuAtlasCoordinates(cell, texel, probegiVolume.irradianceTexels, probegiVolume.irradianceTexelSize);
@@ -117,7 +125,7 @@ vec3 probegiIrradiance(vec3 point, vec3 normal, vec3 toViewer) {
         const ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
         const ivec3 cell = ivec3(base) + corner;
         const vec3 toProbe = probePlace(cell, probegiVolume.origin, probegiVolume.spacing) - position;
-        const float cosToProbe = dot(toProbe, normal) / (length(toProbe) + kNoLength);
+        const float cosToProbe = cosineToProbe(dot(toProbe, normal), length(toProbe), probegiVolume.minSpacing);
         const float trilinear = trilinearFactor(float(corner.x), alpha.x) * trilinearFactor(float(corner.y), alpha.y) *
                                 trilinearFactor(float(corner.z), alpha.z);
         const float weight = crushWeight(backfaceWeight(cosToProbe) * probegiGuard(cell, bias - toProbe)) * trilinear *

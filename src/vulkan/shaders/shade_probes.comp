@@ -39,6 +39,5 @@ void main() {
     const vec3 origin =
         probePlace(gpuProbeCell(probe, probegiVolume.counts), probegiVolume.origin, probegiVolume.spacing);
     const Ray ray = Ray(origin, 0.0, Vec3s(push.directions).at[rayIndex], kNoHitDistance);
-    const int at = probe * push.rays + rayIndex;
-    RayData(push.rayData).at[at] = shade(ray, Hits(push.hits).at[at]);
+    RayData(push.rayData).at[probe * push.rays + rayIndex] = shade(ray, Hits(push.hits).at[index]);
 }

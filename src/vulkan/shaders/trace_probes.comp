@@ -1,5 +1,5 @@
 // Closest hits of the rays of all probes. Neighbouring threads take the same ray of neighbouring probes: parallel rays
-// from nearby origins meet the same nodes.
+// from nearby origins meet the same nodes. Hits lie in the order of threads, [ray][probe], for shade_probes.comp alone.
 // variants: bvh=TRACER_BVH ray_query=TRACER_RAY_QUERY
 #include "rays.glsl"
 #include "scene_set.glsl"
@@ -17,6 +17,6 @@ void main() {
     useSceneOnly();
     const vec3 origin =
         probePlace(gpuProbeCell(probe, probegiVolume.counts), probegiVolume.origin, probegiVolume.spacing);
-    Hits(push.hits).at[probe * push.rays + ray] =
+    Hits(push.hits).at[index] =
         closestHit(Ray(origin, 0.0, Vec3s(push.directions).at[ray], kNoHitDistance));
 }

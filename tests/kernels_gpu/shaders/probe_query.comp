@@ -13,6 +13,7 @@ void evaluate(INOUT(Lane) lane) {
     giveVec3(lane, selfShadowBias(normal, toViewer, 1.5f, 0.3f), 1e-6f);
     give(lane, trilinearFactor(0.0f, unit), 1e-6f);
     give(lane, trilinearFactor(1.0f, unit), 1e-6f);
+    give(lane, cosineToProbe(distance - 2.0f, distance, 0.7f), 1e-5f);
     give(lane, backfaceWeight(dot(normal, toViewer)), 1e-6f);
     give(lane, chebyshevWeight(mean, mean * mean + 0.01f + variance, distance), 2e-4f);
     give(lane, chebyshevWeight(0.0f, 0.0f, unit + 0.01f), 1e-6f);

@@ -1,0 +1,92 @@
+// Baseline of the blend: eq. 1 as it stands in the paper, a thread for every texel of every probe. Each goes over all
+// rays of its probe and derives their weights where it uses them: a cosine for irradiance, a power for visibility.
+// What is done with the means (encoding, hysteresis, dither, border) is the library's own.
+#include "vulkan/shaders/ray_data.glsl"
+#include "vulkan/shaders/volume.glsl"
+
+#include "kernels/gpu_passes.h"
+#include "kernels/octahedral_texel.h"
+#include "kernels/probe_texel.h"
+
+layout(push_constant, scalar) uniform Push {
+    BlendPush push;
+    uvec2 directions;  // vec3[ray]
+    float visibilityExponent;
+};
+
+void storeIrradiance(int probe, ivec2 at, vec3 newMean) {
+    const int size = probegiVolume.irradianceTexels;
+    const ivec3 cell = gpuProbeCell(probe, probegiVolume.counts);
+    const ivec2 tile = gpuTileOrigin(cell, size);
+    const vec3 old = imageLoad(irradianceImage, ivec3(tile + at, cell.z)).rgb;
+    const BlendRule rule = BlendRule(push.irradianceHysteresis, push.significantChange, push.newDistribution);
+    const uvec3 bits = blendIrradianceTexel(old, newMean, rule, push.linear != 0, push.ditherSeed,
+                                            uint((probe * size + at.y) * size + at.x));
+    const vec4 stored = vec4(unpackHalf(bits.x), unpackHalf(bits.y), unpackHalf(bits.z), 0.0);
+    imageStore(irradianceImage, ivec3(tile + at, cell.z), stored);
+    for (int copy = 0; copy < 3; ++copy) {
+        const ivec2 border = octBorderTexel(at.x, at.y, size, copy);
+        if (border != at) imageStore(irradianceImage, ivec3(tile + border, cell.z), stored);
+    }
+}
+
+void storeVisibility(int probe, ivec2 at, vec2 newMoments) {
+    const int size = probegiVolume.visibilityTexels;
+    const ivec3 cell = gpuProbeCell(probe, probegiVolume.counts);
+    const ivec2 tile = gpuTileOrigin(cell, size);
+    const vec2 old = imageLoad(visibilityImage, ivec3(tile + at, cell.z)).rg;
+    const uint bits = blendVisibilityTexel(packMoments(old), newMoments, push.visibilityHysteresis, push.ditherSeed,
+                                           uint((probe * size + at.y) * size + at.x));
+    const vec4 stored = vec4(unpackMoments(bits), 0.0, 0.0);
+    imageStore(visibilityImage, ivec3(tile + at, cell.z), stored);
+    for (int copy = 0; copy < 3; ++copy) {
+        const ivec2 border = octBorderTexel(at.x, at.y, size, copy);
+        if (border != at) imageStore(visibilityImage, ivec3(tile + border, cell.z), stored);
+    }
+}
+
+void blendIrradiance(int probe, ivec2 at) {
+    const vec3 n = octTexelDirection(at.x, at.y, probegiVolume.irradianceTexels);
+    vec3 sum = vec3(0.0);
+    float weights = 0.0;
+    for (int ray = 0; ray < push.rays; ++ray) {
+        const float weight = irradianceWeight(n, Vec3s(directions).at[ray]);
+        const RayDatum d = RayData(push.rayData).at[probe * push.rays + ray];
+        if (!hitBackface(safeDistance(d.distance)))
+            sum += weight * vec3(safeRadiance(d.radiance.x), safeRadiance(d.radiance.y), safeRadiance(d.radiance.z));
+        weights += weight;
+    }
+    storeIrradiance(probe, at, sum * normalisingFactor(weights));
+}
+
+void blendVisibility(int probe, ivec2 at) {
+    const vec3 n = octTexelDirection(at.x, at.y, probegiVolume.visibilityTexels);
+    vec2 sum = vec2(0.0);
+    float weights = 0.0;
+    for (int ray = 0; ray < push.rays; ++ray) {
+        const float weight = visibilityWeight(n, Vec3s(directions).at[ray], visibilityExponent);
+        const float distance = safeDistance(RayData(push.rayData).at[probe * push.rays + ray].distance);
+        const float d = visibilityDistance(distance, push.maxDistance);
+        sum += weight * vec2(d, d * d);
+        weights += weight;
+    }
+    storeVisibility(probe, at, sum * normalisingFactor(weights));
+}
+
+// Irradiance of all probes, then visibility of all probes: no group does both with maps of 8x8 and 16x16.
+void main() {
+    const int irradianceSize = probegiVolume.irradianceTexels;
+    const int visibilitySize = probegiVolume.visibilityTexels;
+    const int irradianceTexels = irradianceSize * irradianceSize;
+    const int visibilityTexels = visibilitySize * visibilitySize;
+    int index = int(globalIndex());
+    if (index < push.probes * irradianceTexels) {
+        const int texel = index % irradianceTexels;
+        blendIrradiance(index / irradianceTexels, ivec2(texel % irradianceSize, texel / irradianceSize));
+        return;
+    }
+    index -= push.probes * irradianceTexels;
+    if (index >= push.probes * visibilityTexels) return;
+    const int texel = index % visibilityTexels;
+    blendVisibility(index / visibilityTexels, ivec2(texel % visibilitySize, texel / visibilitySize));
+}

@@ -1,0 +1,25 @@
+// Baseline of the query, and its floor: eight probes weighted by distance along the axes alone, without any leak guard.
+// Light leaks through every wall.
+#include "vulkan/shaders/volume.glsl"
+
+#include "kernels/gpu_passes.h"
+
+#include "field_query.glsl"
+
+vec3 queryIrradiance(FieldQuery q) {
+    const ivec3 counts = probegiVolume.counts;
+    const vec3 position = clampToGrid(q.position, probegiVolume.origin, probegiVolume.spacing, counts);
+    const vec3 local = gridCoordinates(position, probegiVolume.origin, probegiVolume.inverseSpacing);
+    const vec3 base = cageBase(local, counts);
+    const vec3 alpha = cageAlpha(local, base);
+    const vec2 texel = octTexelPosition(octEncode(q.normal), probegiVolume.irradianceTexels);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 8; ++i) {
+        const ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
+        const vec3 stored = probegiStored(ivec3(base) + corner, texel);
+        const vec3 share = mix(1.0 - alpha, alpha, vec3(corner));
+        sum += share.x * share.y * share.z *
+               vec3(decodeToBlendSpace(stored.x), decodeToBlendSpace(stored.y), decodeToBlendSpace(stored.z));
+    }
+    return sum * sum * kPi;
+}

@@ -1,0 +1,38 @@
+// Baseline of the query: the eight probes of the cage with their visibility, as section 2.2 of the DDGI paper has it: no
+// shares of backfaces, no count, no wider search.
+#include "vulkan/shaders/volume.glsl"
+
+#include "kernels/gpu_passes.h"
+
+#include "field_query.glsl"
+
+vec3 queryIrradiance(FieldQuery q) {
+    const ivec3 counts = probegiVolume.counts;
+    const vec3 position = clampToGrid(q.position, probegiVolume.origin, probegiVolume.spacing, counts);
+    const vec3 bias = selfShadowBias(q.normal, q.toViewer, probegiVolume.minSpacing, probegiVolume.selfShadowBias);
+    const vec3 local =
+        gridCoordinates(position + kCageBias * bias, probegiVolume.origin, probegiVolume.inverseSpacing);
+    const vec3 base = cageBase(local, counts);
+    const vec3 alpha = cageAlpha(local, base);
+    const vec2 texel = octTexelPosition(octEncode(q.normal), probegiVolume.irradianceTexels);
+    vec3 sum = vec3(0.0);
+    float weightSum = 0.0;
+    for (int i = 0; i < 8; ++i) {
+        const ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
+        const ivec3 cell = ivec3(base) + corner;
+        const vec3 toProbe = probePlace(cell, probegiVolume.origin, probegiVolume.spacing) - position;
+        const vec3 fromProbe = bias - toProbe;
+        const vec2 moments = probegiMoments(cell, fromProbe);
+        const float visible =
+            chebyshevWeight(moments.x, moments.y, length(fromProbe) * probegiVolume.inverseMaxDistance);
+        const float facing = backfaceWeight(dot(toProbe, q.normal) / (length(toProbe) + kNoLength));
+        const float weight = crushWeight(facing * visible) * trilinearFactor(float(corner.x), alpha.x) *
+                             trilinearFactor(float(corner.y), alpha.y) * trilinearFactor(float(corner.z), alpha.z);
+        const vec3 stored = probegiStored(cell, texel);
+        sum += weight *
+               vec3(decodeToBlendSpace(stored.x), decodeToBlendSpace(stored.y), decodeToBlendSpace(stored.z));
+        weightSum += weight;
+    }
+    const vec3 root = sum / weightSum;
+    return root * root * kPi;
+}

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "room_field.h"
+#include "vulkan/probe_volume_impl.h"
+#include "vulkan/volume_mirror.h"
+
+namespace probegi::bench {
+
+/// A compute pass of bench/shaders, with the layout of the library's own.
+class BenchPass {
+public:
+    BenchPass(const vulkan::Device& device, std::span<const std::uint32_t> spirv);
+
+    /// Runs it over `count` threads, as Recorder::dispatchOver.
+    void record(const vulkan::Recorder& recorder, std::uint64_t count) const;
+
+private:
+    vk::raii::Pipeline m_pipeline;
+};
+
+/// The room's volume of probes on the first usable Vulkan device. Throws Failure where there is none.
+class VulkanRoom {
+public:
+    explicit VulkanRoom(const RoomField& room, std::span<const RayDatum> rayData);
+
+    const vulkan::Device& device() const noexcept { return m_device; }
+    vulkan::VolumePasses& volume() noexcept { return m_volume; }
+    VkDeviceAddress rayData() const noexcept { return m_rayData.address(); }
+    VkDeviceAddress directions() const noexcept { return m_directions.address(); }
+
+    /// The same update every time: half of it is what was there before.
+    UpdateFrame frame() const;
+    /// Records, runs, waits, and returns the milliseconds of each pass by the GPU's own clock.
+    std::vector<vulkan::PassTime> run(const std::function<void(const vulkan::Recorder&, vulkan::Profiler&)>& passes);
+    void clear();
+    /// One update by the library.
+    std::vector<vulkan::PassTime> update();
+
+private:
+    vulkan::Device m_device;
+    const RoomField& m_room;
+    vulkan::VolumePasses m_volume;
+    vulkan::Profiler m_profiler;
+    vulkan::Buffer m_rayData, m_directions;
+};
+
+double sumOf(const std::vector<vulkan::PassTime>& passes);
+double median(std::vector<double> values);
+
+}  // namespace probegi::bench

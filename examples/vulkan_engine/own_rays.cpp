@@ -1,0 +1,50 @@
+#include "own_rays.h"
+
+using namespace probegi;
+
+namespace {
+
+constexpr std::uint32_t kTraceProbes[] = {
+#include "trace_probes.comp.inc"
+};
+
+struct TracePush {
+    vk::DeviceAddress frame, directions, rayData;
+    std::int32_t rays;
+    std::int32_t unused = 0;
+};
+
+std::size_t rayCount(const FieldDesc& desc) {
+    return std::size_t(probeCount(desc.grid)) * desc.raysPerProbe;
+}
+
+vk::raii::PipelineLayout makeLayout(const vk::raii::Device& device, vk::DescriptorSetLayout set) {
+    const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, sizeof(TracePush));
+    return {device, vk::PipelineLayoutCreateInfo({}, set, push)};
+}
+
+}  // namespace
+
+OwnRays::OwnRays(const EngineDevice& engine, MemoryPool& pool, const vulkan::ProbeVolume& volume)
+    : m_directions(engine.device(), pool, volume.desc().raysPerProbe * sizeof(glm::vec3)),
+      m_data(engine.device(), pool, rayCount(volume.desc()) * sizeof(RayDatum)),
+      m_probes(engine.device()),
+      m_layout(makeLayout(engine.device(), m_probes.layout())),
+      m_trace(makeComputePipeline(engine.device(), *m_layout, kTraceProbes)) {
+    m_probes.write(volume);
+}
+
+void OwnRays::record(const vk::raii::CommandBuffer& commands, const vulkan::ProbeVolume& volume,
+                     vk::DeviceAddress frame) const {
+    // The directions change every frame. Written by the command buffer itself, they need no copy a frame in flight.
+    const std::span<const glm::vec3> directions = volume.rayDirections();
+    order(commands, kComputeUse, kTransferWrite);
+    commands.updateBuffer<glm::vec3>(*m_directions.buffer, 0, {std::uint32_t(directions.size()), directions.data()});
+    order(commands, kTransferWrite, kComputeUse);
+    const TracePush push{frame, m_directions.address, m_data.address, volume.desc().raysPerProbe};
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *m_trace);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *m_layout, 0, *m_probes, {});
+    commands.pushConstants<TracePush>(*m_layout, vk::ShaderStageFlagBits::eCompute, 0, push);
+    commands.dispatch(std::uint32_t((rayCount(volume.desc()) + 63) / 64), 1, 1);
+    order(commands, kComputeUse, kComputeUse);  // recordUpdate() reads the data in compute shaders
+}

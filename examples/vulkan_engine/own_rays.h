@@ -1,0 +1,26 @@
+#pragma once
+
+#include <probegi/vulkan.h>
+
+#include "engine_device.h"
+#include "probe_set.h"
+#include "resources.h"
+
+/// Ray data that the engine traces itself, in a compute shader of its own (shaders/trace_probes.comp).
+class OwnRays {
+public:
+    /// For updates of `volume`, which must outlive this.
+    OwnRays(const EngineDevice& engine, MemoryPool& pool, const probegi::vulkan::ProbeVolume& volume);
+
+    /// Traces the rays of the coming update; its data is visible to compute shaders afterwards. `frame`: address of
+    /// FrameData.
+    void record(const vk::raii::CommandBuffer& commands, const probegi::vulkan::ProbeVolume& volume,
+                vk::DeviceAddress frame) const;
+    vk::DeviceAddress data() const { return m_data.address; }
+
+private:
+    GpuBuffer m_directions, m_data;
+    ProbeSet m_probes;
+    vk::raii::PipelineLayout m_layout;
+    vk::raii::Pipeline m_trace;
+};
