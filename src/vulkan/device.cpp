@@ -30,6 +30,9 @@ void Device::Impl::finish(const Features& features, const std::filesystem::path&
     const auto properties = physical.getProperties();
     limits = properties.limits;
     memoryProperties = physical.getMemoryProperties();
+    maxBufferBytes = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance4Properties>()
+                         .get<vk::PhysicalDeviceMaintenance4Properties>()
+                         .maxBufferSize;
     timestampBits = physical.getQueueFamilyProperties()[family].timestampValidBits;
     rayQuery = features.canRayQuery() && functions.vkCreateAccelerationStructureKHR &&
                functions.vkCmdBuildAccelerationStructuresKHR;

@@ -42,6 +42,7 @@ struct Device::Impl {
     vk::PhysicalDeviceMemoryProperties memoryProperties;
     std::uint32_t scratchAlignment = 1;  ///< of acceleration structure builds
     std::uint32_t timestampBits = 0;
+    VkDeviceSize maxBufferBytes = 0;
     Allocator allocator;
     mutable std::atomic<int> validationMessages{0};
     mutable std::optional<Submitter> submitter;      // of a device of the library's own

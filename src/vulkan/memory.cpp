@@ -1,6 +1,7 @@
 #include "vulkan/memory.h"
 
 #include <algorithm>
+#include <vulkan/vulkan_format_traits.hpp>
 
 #include "vulkan/device_impl.h"
 #include "vulkan/errors.h"
@@ -34,13 +35,32 @@ std::uint32_t memoryType(const vk::PhysicalDeviceMemoryProperties& memory, std::
 
 void allocateOwn(const Device::Impl& device, const VkMemoryRequirements& needs, MemoryUse use, bool deviceAddress,
                  Allocation& out) {
+    const auto& properties = device.memoryProperties;
+    const std::uint32_t type = memoryType(properties, needs.memoryTypeBits, propertiesFor(use));
+    // Drivers need not survive being asked for more.
+    if (needs.size > properties.memoryHeaps[properties.memoryTypes[type].heapIndex].size)
+        throw vk::OutOfDeviceMemoryError("more than the whole heap");
     const vk::MemoryAllocateFlagsInfo flags(vk::MemoryAllocateFlagBits::eDeviceAddress);
-    const vk::MemoryAllocateInfo info(needs.size,
-                                      memoryType(device.memoryProperties, needs.memoryTypeBits, propertiesFor(use)),
-                                      deviceAddress ? &flags : nullptr);
+    const vk::MemoryAllocateInfo info(needs.size, type, deviceAddress ? &flags : nullptr);
     vk::raii::DeviceMemory memory(device.device, info);
     if (use != MemoryUse::device) out.mapped = memory.mapMemory(0, VK_WHOLE_SIZE);
     out.memory = memory.release();
+}
+
+vk::raii::Buffer makeBuffer(const Device::Impl& device, std::size_t bytes, vk::BufferUsageFlags usage) {
+    if (bytes > device.maxBufferBytes) throw vk::OutOfDeviceMemoryError("larger than any buffer");
+    return {device.device, vk::BufferCreateInfo({}, bytes, usage)};
+}
+
+vk::raii::Image makeImage(const Device::Impl& device, vk::Format format, vk::Extent2D size, std::uint32_t layers) {
+    using Usage = vk::ImageUsageFlagBits;
+    const auto usage = Usage::eStorage | Usage::eSampled | Usage::eTransferSrc | Usage::eTransferDst;
+    const auto most =
+        device.physical.getImageFormatProperties(format, vk::ImageType::e2D, vk::ImageTiling::eOptimal, usage);
+    const VkDeviceSize bytes = VkDeviceSize(size.width) * size.height * layers * vk::blockSize(format);
+    if (bytes > most.maxResourceSize) throw vk::OutOfDeviceMemoryError("larger than any image");
+    return {device.device, vk::ImageCreateInfo({}, vk::ImageType::e2D, format, vk::Extent3D(size, 1), 1, layers,
+                                               vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal, usage)};
 }
 
 }  // namespace
@@ -73,8 +93,7 @@ Memory::~Memory() {
 
 Buffer::Buffer(const Device::Impl& device, const char* name, std::size_t bytes, vk::BufferUsageFlags usage,
                MemoryUse use)
-    : m_buffer(device.device, vk::BufferCreateInfo({}, std::max<std::size_t>(bytes, 16), usage)),
-      m_bytes(std::max<std::size_t>(bytes, 16)) {
+    : m_buffer(makeBuffer(device, std::max<std::size_t>(bytes, 16), usage)), m_bytes(std::max<std::size_t>(bytes, 16)) {
     const bool addressed = bool(usage & vk::BufferUsageFlagBits::eShaderDeviceAddress);
     m_memory = Memory(device, m_buffer.getMemoryRequirements(), use, addressed);
     m_buffer.bindMemory(m_memory.allocation().memory, m_memory.allocation().offset);
@@ -83,13 +102,7 @@ Buffer::Buffer(const Device::Impl& device, const char* name, std::size_t bytes, 
 }
 
 Image::Image(const Device::Impl& device, const char* name, vk::Format format, vk::Extent2D size, std::uint32_t layers)
-    : m_image(device.device,
-              vk::ImageCreateInfo({}, vk::ImageType::e2D, format, vk::Extent3D(size, 1), 1, layers,
-                                  vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal,
-                                  vk::ImageUsageFlagBits::eStorage | vk::ImageUsageFlagBits::eSampled |
-                                      vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst)),
-      m_size(size),
-      m_layers(layers) {
+    : m_image(makeImage(device, format, size, layers)), m_size(size), m_layers(layers) {
     const VkMemoryRequirements needs = m_image.getMemoryRequirements();
     m_memory = Memory(device, needs, MemoryUse::device, false);
     m_bytes = needs.size;

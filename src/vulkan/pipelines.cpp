@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 #include <random>
+#include <sstream>
 #include <vector>
 
 #include "vulkan/errors.h"
@@ -39,7 +40,10 @@ std::filesystem::path cacheFile(const vk::raii::PhysicalDevice& physical, const 
 std::vector<std::uint8_t> readCache(const std::filesystem::path& file, std::string& warning) {
     std::ifstream in(file, std::ios::binary);
     if (file.empty() || !in) return {};
-    const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    // What opens but cannot be read, as a folder, leaves the text empty. (The stream's iterators throw there.)
+    std::ostringstream stream;
+    stream << in.rdbuf();
+    const std::string text = stream.str();
     CacheHeader header;
     std::vector<std::uint8_t> body;
     if (text.size() >= sizeof(header)) {

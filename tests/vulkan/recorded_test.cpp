@@ -124,24 +124,21 @@ TEST_F(VulkanRecorded, lightsThatChangeAreThoseThatWereMade) {
     bright.sky.radiance = glm::vec3(0.4f);
     vulkan::GpuLighting changed = *vulkan::GpuLighting::create(device, dark, 2),
                         made = *vulkan::GpuLighting::create(device, bright);
-    ProbeVolume a = *ProbeVolume::create(device, world.desc), b = *ProbeVolume::create(device, world.desc);
+    std::vector<ProbeVolume> volumes;
+    for (int i = 0; i < 3; ++i) volumes.push_back(*ProbeVolume::create(device, world.desc));
     const EngineBuffer before = answers(), after = answers(), wanted = answers();
     engine.run([&](VkCommandBuffer commands) {
         scene.recordUpload(commands);
         changed.recordUpload(commands);
         made.recordUpload(commands);
-        a.recordClear(commands);
-        b.recordClear(commands);
-        EXPECT_TRUE(a.recordUpdate(commands, scene, changed));
-        EXPECT_TRUE(a.recordQuery(commands, questions.address, before.address, count()));
-        a.recordClear(commands);
+        for (ProbeVolume& volume : volumes) volume.recordClear(commands);
+        EXPECT_TRUE(volumes[0].recordUpdate(commands, scene, changed));
         EXPECT_TRUE(changed.recordUpdate(commands, bright));
-        EXPECT_TRUE(a.recordUpdate(commands, scene, changed));
-        EXPECT_TRUE(a.recordQuery(commands, questions.address, after.address, count()));
-        EXPECT_TRUE(b.recordUpdate(commands, scene, changed));
-        b.recordClear(commands);
-        EXPECT_TRUE(b.recordUpdate(commands, scene, made));
-        EXPECT_TRUE(b.recordQuery(commands, questions.address, wanted.address, count()));
+        EXPECT_TRUE(volumes[1].recordUpdate(commands, scene, changed));
+        EXPECT_TRUE(volumes[2].recordUpdate(commands, scene, made));
+        EXPECT_TRUE(volumes[0].recordQuery(commands, questions.address, before.address, count()));
+        EXPECT_TRUE(volumes[1].recordQuery(commands, questions.address, after.address, count()));
+        EXPECT_TRUE(volumes[2].recordQuery(commands, questions.address, wanted.address, count()));
         const auto tooMany = changed.recordUpdate(commands, {{lamp, lamp, lamp}, {}});
         ASSERT_FALSE(tooMany);
         EXPECT_EQ(tooMany.error().code, ErrorCode::invalidArgument);
