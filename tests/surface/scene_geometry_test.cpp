@@ -83,6 +83,21 @@ TEST(SceneGeometry, KeepsApartWhatAnimationsMove) {
     EXPECT_TRUE(SceneGeometry::gather(scene, poseAt(scene)).placements.empty()) << "unless nobody asks";
 }
 
+TEST(SceneGeometry, KeepsApartWhatAnEngineMovesItself) {
+    Scene scene = hierarchy();
+    scene.animations = {slide(3)};
+    const std::vector<int> nodes{1};
+    const auto moved = [&](bool animated) {
+        std::vector<int> result;
+        for (const Placement& placement :
+             SceneGeometry::gather(scene, poseAt(scene), movableInstances(scene, animated, nodes)).placements)
+            result.push_back(placement.node);
+        return result;
+    };
+    EXPECT_EQ(moved(false), (std::vector<int>{1, 2})) << "the node and its child, not what is animated";
+    EXPECT_EQ(moved(true), (std::vector<int>{1, 2, 3}));
+}
+
 TEST(SceneGeometry, KeepsApartWhatThePredicateNames) {
     const Scene scene = hierarchy();
     const SceneGeometry g =
