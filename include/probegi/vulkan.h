@@ -173,8 +173,8 @@ struct GpuSceneDesc {
 class GpuScene {
 public:
     /// Builds the BVH on the context's threads, allocates, and fills staging memory. The scene must be valid; it is
-    /// read during the call only. Errors: outOfMemory, unsupported (ray query asked for and not there), invalidArgument (a
-    /// movable node that the scene has not).
+    /// read during the call only. Errors: outOfMemory, unsupported (ray query asked for and not there), invalidArgument
+    /// (a movable node that the scene has not).
     static Result<GpuScene> create(const Context& context, const Device& device, const Scene& scene,
                                    const ScenePose& pose, const GpuSceneDesc& desc = {});
     GpuScene(GpuScene&&) noexcept;

@@ -66,7 +66,8 @@ TEST(SceneGeometry, BoundsAreTheTracers) {
     s.place(shared, glm::scale(kAside, {-2, 1, 3}));
     for (const bool withWorld : {false, true}) {
         if (withWorld) s.add(quad(), glm::translate(glm::mat4(1.0f), {0, -7, 0}));
-        const Bounds ours = SceneGeometry::gather(s.scene, s.pose).bounds(), tracers = trace(tracerMakers().front(), s)->bounds();
+        const Bounds ours = SceneGeometry::gather(s.scene, s.pose).bounds(),
+                     tracers = trace(tracerMakers().front(), s)->bounds();
         expectNear(ours.lower, tracers.lower, 1e-5f);
         expectNear(ours.upper, tracers.upper, 1e-5f);
     }
