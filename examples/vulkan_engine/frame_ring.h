@@ -20,7 +20,7 @@ public:
     FrameRing(const EngineDevice& engine, const probegi::vulkan::Device& device);
     FrameRing(const FrameRing&) = delete;
     FrameRing& operator=(const FrameRing&) = delete;
-    ~FrameRing() { m_engine.device().waitIdle(); }
+    ~FrameRing() { vkDeviceWaitIdle(*m_engine.device()); }
 
     /// The next frame, once the GPU has let go of it: its command buffer records.
     Frame& begin();

@@ -18,7 +18,9 @@
 ///
 /// An engine hands over its device (Device::adopt) and records passes into its own command buffers: ProbeVolume,
 /// GpuScene, GpuLighting. Recording never submits, waits or maps memory; the barriers between the library's own passes
-/// are recorded with them, and each record function says what the caller must order before and after it.
+/// are recorded with them, and each record function says what the caller must order before and after it. Record outside
+/// of render passes; compute pipeline, descriptor sets and push constants of the command buffer are not kept. What a
+/// command buffer uses must live until it has finished.
 ///
 /// A program without a device opens one (Device::open) and uses what the CPU backend offers, on the GPU: makeTracer(),
 /// makeField(), renderPicture(). These submit and wait.

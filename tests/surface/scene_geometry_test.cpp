@@ -66,7 +66,8 @@ TEST(SceneGeometry, BoundsAreTheTracers) {
     s.place(shared, glm::scale(kAside, {-2, 1, 3}));
     for (const bool withWorld : {false, true}) {
         if (withWorld) s.add(quad(), glm::translate(glm::mat4(1.0f), {0, -7, 0}));
-        const Bounds ours = SceneGeometry::gather(s.scene, s.pose).bounds(), tracers = trace(tracerMakers().front(), s)->bounds();
+        const Bounds ours = SceneGeometry::gather(s.scene, s.pose).bounds(),
+                     tracers = trace(tracerMakers().front(), s)->bounds();
         expectNear(ours.lower, tracers.lower, 1e-5f);
         expectNear(ours.upper, tracers.upper, 1e-5f);
     }
@@ -81,6 +82,21 @@ TEST(SceneGeometry, KeepsApartWhatAnimationsMove) {
     EXPECT_EQ(g.placements[1].node, 2) << "moved by its parent";
     EXPECT_EQ(g.world.opaque.triangles.size(), 4u);
     EXPECT_TRUE(SceneGeometry::gather(scene, poseAt(scene)).placements.empty()) << "unless nobody asks";
+}
+
+TEST(SceneGeometry, KeepsApartWhatAnEngineMovesItself) {
+    Scene scene = hierarchy();
+    scene.animations = {slide(3)};
+    const std::vector<int> nodes{1};
+    const auto moved = [&](bool animated) {
+        std::vector<int> result;
+        for (const Placement& placement :
+             SceneGeometry::gather(scene, poseAt(scene), movableInstances(scene, animated, nodes)).placements)
+            result.push_back(placement.node);
+        return result;
+    };
+    EXPECT_EQ(moved(false), (std::vector<int>{1, 2})) << "the node and its child, not what is animated";
+    EXPECT_EQ(moved(true), (std::vector<int>{1, 2, 3}));
 }
 
 TEST(SceneGeometry, KeepsApartWhatThePredicateNames) {

@@ -108,14 +108,13 @@ vec3 probegiNeighbours(vec3 position, vec3 normal, vec3 bias, vec3 local, vec2 t
     return weightSum > 0.0 ? sum / weightSum : vec3(0.0);
 }
 
-// Irradiance E in W m^-2 at a point of a surface that faces `normal`, seen from the direction `toViewer` (both unit; use
-// the normal where there is no viewer). Outside the volume its nearest cell answers.
+// Irradiance E in W m^-2 at a point of a surface that faces `normal`, seen from the direction `toViewer` (both unit;
+// use the normal where there is no viewer). Outside the volume its nearest cell answers.
 vec3 probegiIrradiance(vec3 point, vec3 normal, vec3 toViewer) {
     const ivec3 counts = probegiVolume.counts;
     const vec3 position = clampToGrid(point, probegiVolume.origin, probegiVolume.spacing, counts);
     const vec3 bias = selfShadowBias(normal, toViewer, probegiVolume.minSpacing, probegiVolume.selfShadowBias);
-    const vec3 local =
-        gridCoordinates(position + kCageBias * bias, probegiVolume.origin, probegiVolume.inverseSpacing);
+    const vec3 local = gridCoordinates(position + kCageBias * bias, probegiVolume.origin, probegiVolume.inverseSpacing);
     const vec3 base = cageBase(local, counts);
     const vec3 alpha = cageAlpha(local, base);
     const vec2 texel = octTexelPosition(octEncode(normal), probegiVolume.irradianceTexels);
@@ -131,8 +130,7 @@ vec3 probegiIrradiance(vec3 point, vec3 normal, vec3 toViewer) {
         const float weight = crushWeight(backfaceWeight(cosToProbe) * probegiGuard(cell, bias - toProbe)) * trilinear *
                              probegiOutside(cell);
         const vec3 stored = probegiStored(cell, texel);
-        sum += weight *
-               vec3(decodeToBlendSpace(stored.x), decodeToBlendSpace(stored.y), decodeToBlendSpace(stored.z));
+        sum += weight * vec3(decodeToBlendSpace(stored.x), decodeToBlendSpace(stored.y), decodeToBlendSpace(stored.z));
         weightSum += weight;
     }
     if (weightSum >= kDoubtful) {
