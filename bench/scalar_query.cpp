@@ -70,7 +70,8 @@ glm::vec3 queryOne(const FieldView& view, FieldQuery query) {
         const glm::ivec3 at = glm::ivec3(base) + offset;
         const int probe = at.x + grid.counts.x * (at.y + grid.counts.y * at.z);
         const glm::vec3 toProbe = grid.origin + glm::vec3(at) * grid.spacing - query.position;
-        const float cosine = kernels::cosineToProbe(glm::dot(toProbe, query.normal), glm::length(toProbe), view.minSpacing);
+        const float cosine =
+            kernels::cosineToProbe(glm::dot(toProbe, query.normal), glm::length(toProbe), view.minSpacing);
         const float trilinear = kernels::trilinearFactor(float(offset.x), alpha.x) *
                                 kernels::trilinearFactor(float(offset.y), alpha.y) *
                                 kernels::trilinearFactor(float(offset.z), alpha.z);

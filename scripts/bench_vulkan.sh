@@ -35,7 +35,9 @@ if (($# == 0)) && [[ -f $sponza ]]; then
 fi
 table=$(mktemp)
 trap 'rm -f "$table"' EXIT
-build/bench/apps/probegi/probegi bench --backend vulkan "$@" | tee "$table"
+sed -n 's/^model name[^:]*: *\(.*\)/Host: \1, /p' /proc/cpuinfo | head -n 1 | tr -d '\n' | tee "$table"
+echo "$(nproc) threads, load $(cut -d ' ' -f 1 /proc/loadavg) at the start" | tee -a "$table"
+build/bench/apps/probegi/probegi bench --backend vulkan "$@" | tee -a "$table"
 
 # Counters of a benchmark to rows of a table.
 {

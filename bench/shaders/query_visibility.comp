@@ -25,7 +25,8 @@ vec3 queryIrradiance(FieldQuery q) {
         const vec2 moments = probegiMoments(cell, fromProbe);
         const float visible =
             chebyshevWeight(moments.x, moments.y, length(fromProbe) * probegiVolume.inverseMaxDistance);
-        const float facing = backfaceWeight(dot(toProbe, q.normal) / (length(toProbe) + kNoLength));
+        const float facing =
+            backfaceWeight(cosineToProbe(dot(toProbe, q.normal), length(toProbe), probegiVolume.minSpacing));
         const float weight = crushWeight(facing * visible) * trilinearFactor(float(corner.x), alpha.x) *
                              trilinearFactor(float(corner.y), alpha.y) * trilinearFactor(float(corner.z), alpha.z);
         const vec3 stored = probegiStored(cell, texel);

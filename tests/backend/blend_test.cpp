@@ -110,6 +110,16 @@ TEST_P(BackendBlend, sameAtlasesForAllMapSizes) {
     }
 }
 
+// More rays than a pass keeps at hand at a time, and a number that fills no last piece.
+TEST_P(BackendBlend, sameAtlasesForManyRays) {
+    FieldDesc desc = descWith(BackfaceRule::excluded);
+    desc.raysPerProbe = 701;
+    Field field = makeField(desc), reference = made(kCpu.makeField(context, desc));
+    ASSERT_TRUE(field.update(randomData(desc, 50)));
+    ASSERT_TRUE(reference.update(randomData(desc, 50)));
+    expectSameAtlases(field, reference);
+}
+
 // What is no light and no distance counts as black and as a miss.
 TEST_P(BackendBlend, badRadianceAndDistanceNeverEnterTheAtlas) {
     Field good = makeField(descWith(BackfaceRule::zeroSample)), bad = makeField(descWith(BackfaceRule::zeroSample));
