@@ -38,7 +38,7 @@ struct DeviceInfo {
     bool usable() const { return missing.empty(); }
 };
 
-/// All devices, in the order of the loader. Errors: unsupported (no Vulkan loader on this machine).
+/// All devices, in the order of the loader. Errors: unsupported (no Vulkan loader on this machine, or no driver).
 Result<std::vector<DeviceInfo>> listDevices();
 
 /// What an allocation will be used for.
@@ -249,7 +249,8 @@ public:
     void notify(FieldEvent event) noexcept;
     void setGuard(LeakGuard guard) noexcept;  ///< of passes recorded from now on
 
-    /// Clears the probes. Once, before any other use.
+    /// Clears the probes and begins at frame 0. Once before any other use, and whenever the probes shall forget
+    /// (another level). Orders itself against what comes before and after in the queue.
     void recordClear(VkCommandBuffer commands);
 
     /// One update with the library's rays: trace, shade with the lighting and last frame's field, blend. Begins and

@@ -207,6 +207,7 @@ std::uint64_t GpuField::fallbackQueries() const noexcept {
 }
 
 FieldMemory GpuField::memory() const noexcept {
+    const std::lock_guard lock(m_mutex);
     FieldMemory memory = m_passes.memory();
     memory.scratchBytes += m_exchange.bytes();
     return memory;

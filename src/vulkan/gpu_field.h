@@ -31,11 +31,11 @@ public:
 
     const Device& device() const noexcept { return m_device; }
     VolumePasses& passes() const noexcept { return m_passes; }
-    /// The lighting in GPU memory, uploaded again only where it changed. Throws.
-    const GpuLighting& uploaded(const Lighting& lighting) const;
     std::vector<PassTime> passTimes() const;
 
 private:
+    /// The lighting in GPU memory, uploaded again only where it changed. Throws.
+    const GpuLighting& uploaded(const Lighting& lighting) const;
     UpdateTimes updateOnGpu(const UpdateFrame& frame, const GpuTracer& tracer, const Lighting& lighting);
     UpdateTimes updateFrom(const UpdateFrame& frame, std::span<const RayDatum> rayData);
     /// guarded(), for passes over the volume.

@@ -108,7 +108,7 @@ private:
     PictureTimes m_times;
 };
 
-/// Lights of a picture without a field: a field keeps its own.
+/// Lights of one picture.
 GpuLighting uploadedLighting(const Device& device, const Lighting& lighting) {
     GpuLighting result = orThrow(GpuLighting::create(device, lighting));
     submitAndWait(device, [&](const Recorder& recorder) { result.recordUpload(recorder.commands()); });

@@ -33,6 +33,7 @@ void ProbeVolume::setGuard(LeakGuard guard) noexcept {
 
 void ProbeVolume::recordClear(VkCommandBuffer commands) {
     m_impl->passes.recordClear({m_impl->passes.device().impl(), commands});
+    m_impl->books = FrameBooks(m_impl->books.desc());
 }
 
 Result<void> ProbeVolume::recordUpdate(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,

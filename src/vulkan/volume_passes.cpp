@@ -145,6 +145,7 @@ void VolumePasses::makeRayBuffers() {
 }
 
 void VolumePasses::recordClear(const Recorder& recorder) {
+    recorder.orderAll();
     const auto all = vk::ImageSubresourceRange(vk::ImageAspectFlagBits::eColor, 0, 1, 0, VK_REMAINING_ARRAY_LAYERS);
     std::vector<vk::ImageMemoryBarrier2> toGeneral;
     for (const Image* image : {&m_irradiance, &m_visibility})

@@ -1,0 +1,152 @@
+// Deferred shading and tone map in an engine's own command buffers: the layers that the CPU's picture has.
+#include <cmath>
+
+#include "kernels/pinhole.h"
+#include "vulkan/engine.h"
+#include "vulkan/hooks.h"
+#include "vulkan/log_book.h"
+#include "vulkan/small_world.h"
+
+namespace probegi::test {
+namespace {
+
+using vulkan::ShadingSample;
+
+/// What the CPU's tracer sees through each pixel's middle, as an engine would rasterise it.
+std::vector<ShadingSample> rasterised(const Tracer& tracer, const PictureDesc& desc) {
+    const kernels::PinholeCamera camera = kernels::makePinhole(
+        desc.camera.position, desc.camera.forward, desc.camera.up, desc.camera.yfov, desc.width, desc.height);
+    std::vector<ShadingSample> samples;
+    for (int y = 0; y < desc.height; ++y)
+        for (int x = 0; x < desc.width; ++x) {
+            const Ray ray{camera.origin, 0.0f, kernels::pinholeDirection(camera, float(x) + 0.5f, float(y) + 0.5f)};
+            Hit hit;
+            Surface s;
+            tracer.closestHits({&ray, 1}, {&hit, 1});
+            tracer.surfaces({&ray, 1}, {&hit, 1}, {&s, 1});
+            ShadingSample sample;
+            sample.viewDirection = ray.direction;
+            if (hit.valid()) {
+                sample.kind = s.backface ? ShadingSample::backface : ShadingSample::surface;
+                sample.position = s.position;
+                sample.geometricNormal = s.geometricNormal;
+                sample.shadingNormal = s.shadingNormal;
+                sample.metallic = s.metallic;
+                sample.roughness = s.roughness;
+                sample.albedo = s.albedo;
+                sample.direct = s.emission;
+            }
+            samples.push_back(sample);
+        }
+    return samples;
+}
+
+}  // namespace
+
+TEST(VulkanShading, samplesOfAnEngineLookLikeTheCpusPicture) {
+    hooks().reset();
+    const SmallWorld world;
+    LogBook log;
+    PictureDesc desc = world.picture();
+    desc.samplesPerAxis = 1;
+    const auto cpuTracer = *makeEmbreeTracer(log, world.scene, world.pose);
+    const std::vector<RayDatum> rays(18 * 16, RayDatum{{0.5f, 0.25f, 1.0f}, 0.6f});
+    Field cpuField = *Field::create(log, world.desc);
+    ASSERT_TRUE(cpuField.update(rays));
+    const Picture picture = renderPicture(log, *cpuTracer, world.lighting, &cpuField, desc)->picture;
+    const std::vector<ShadingSample> samples = rasterised(*cpuTracer, desc);
+
+    Engine engine;
+    const vulkan::Device device = *vulkan::Device::adopt(log, engine.adoptDesc());
+    auto scene = *vulkan::GpuScene::create(log, device, world.scene, world.pose);
+    auto lighting = *vulkan::GpuLighting::create(device, world.lighting);
+    auto volume = *vulkan::ProbeVolume::create(device, world.desc);
+    const EngineBuffer rayBuffer = engine.makeBuffer(std::span(rays));
+    const EngineBuffer withField = engine.makeBuffer(std::span(samples)),
+                       without = engine.makeBuffer(std::span(samples));
+    const std::uint32_t count = std::uint32_t(samples.size());
+    engine.run([&](VkCommandBuffer commands) {
+        scene.recordUpload(commands);
+        lighting.recordUpload(commands);
+        volume.recordClear(commands);
+        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.address));
+        EXPECT_TRUE(vulkan::recordShading(commands, scene, lighting, &volume, withField.address, count));
+        EXPECT_TRUE(vulkan::recordShading(commands, scene, lighting, nullptr, without.address, count));
+    });
+    const auto got = withField.as<ShadingSample>(), unlit = without.as<ShadingSample>();
+    float brightest = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const glm::vec3 direct = picture.direct.pixels[i], e = picture.irradiance.pixels[i];
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(got[i].direct[c], direct[c], 1e-3f * (direct[c] + 0.01f)) << "sample " << i;
+            EXPECT_NEAR(got[i].indirect[c], e[c], 6e-3f * (e[c] + 0.01f)) << "sample " << i;
+            EXPECT_EQ(unlit[i].direct[c], got[i].direct[c]);
+            EXPECT_EQ(unlit[i].indirect[c], 0.0f);
+            brightest = std::max(brightest, e[c]);
+        }
+    }
+    EXPECT_GT(brightest, 0.1f);
+}
+
+TEST(VulkanShading, tonesInAnEnginesBuffersAreTheLibrarys) {
+    hooks().reset();
+    LogBook log;
+    Engine engine;
+    const vulkan::Device device = *vulkan::Device::adopt(log, engine.adoptDesc());
+    const std::vector<glm::vec3> linear = {
+        glm::vec3(0.0f), {0.18f, 0.5f, 1.0f}, {2, 30, 4000}, {-1, 1e-4f, NAN}, {1e9f, 0.003f, 0.02f}};
+    for (const ToneMap toneMap : {ToneMap{}, ToneMap{1.7f, true}}) {
+        const EngineBuffer in = engine.makeBuffer(std::span(linear)), out = engine.makeBuffer(4 * linear.size());
+        engine.run([&](VkCommandBuffer commands) {
+            EXPECT_TRUE(vulkan::recordToneMap(commands, device, in.address, out.address, std::uint32_t(linear.size()),
+                                              toneMap));
+        });
+        for (std::size_t i = 0; i < linear.size(); ++i) {
+            const glm::vec3 display = toDisplay(linear[i], toneMap);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(out.as<std::uint8_t>()[4 * i + std::size_t(c)], int(display[c] * 255.0f + 0.5f), 1) << i;
+            EXPECT_EQ(out.as<std::uint8_t>()[4 * i + 3], 255);
+        }
+    }
+}
+
+TEST(VulkanShading, objectsOfTwoDevicesAreRefused) {
+    hooks().reset();
+    const SmallWorld world;
+    LogBook log;
+    Engine engine;
+    const vulkan::Device one = *vulkan::Device::adopt(log, engine.adoptDesc());
+    const vulkan::Device other = *vulkan::Device::adopt(log, engine.adoptDesc());
+    const auto scene = *vulkan::GpuScene::create(log, one, world.scene, world.pose);
+    const auto lighting = *vulkan::GpuLighting::create(other, world.lighting);
+    engine.run([&](VkCommandBuffer commands) {
+        const auto refused = vulkan::recordShading(commands, scene, lighting, nullptr, 0, 1);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::invalidArgument);
+    });
+}
+
+// Another level: the probes forget, and the first update after that is a first one.
+TEST(VulkanShading, aClearedVolumeBeginsAnew) {
+    hooks().reset();
+    const SmallWorld world;
+    LogBook log;
+    Engine engine;
+    const vulkan::Device device = *vulkan::Device::adopt(log, engine.adoptDesc());
+    auto volume = *vulkan::ProbeVolume::create(device, world.desc);
+    const std::vector<RayDatum> bright(18 * 16, RayDatum{glm::vec3(9.0f), 0.6f}), dim(18 * 16, {glm::vec3(0.5f), 0.6f});
+    const EngineBuffer brightRays = engine.makeBuffer(std::span(bright)), dimRays = engine.makeBuffer(std::span(dim));
+    const FieldQuery query = world.query();
+    const EngineBuffer question = engine.makeBuffer(std::span(&query, 1)), answer = engine.makeBuffer(12);
+    engine.run([&](VkCommandBuffer commands) {
+        volume.recordClear(commands);
+        for (int i = 0; i < 3; ++i) EXPECT_TRUE(volume.recordUpdate(commands, brightRays.address));
+        volume.recordClear(commands);
+        EXPECT_EQ(volume.frame(), 0);
+        EXPECT_TRUE(volume.recordUpdate(commands, dimRays.address));
+        EXPECT_TRUE(volume.recordQuery(commands, question.address, answer.address, 1));
+    });
+    EXPECT_NEAR(answer.as<glm::vec3>()[0].x, 0.5f * 3.14159265f, 0.01f);
+}
+
+}  // namespace probegi::test
