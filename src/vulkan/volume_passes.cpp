@@ -145,12 +145,14 @@ void VolumePasses::makeRayBuffers() {
 }
 
 void VolumePasses::recordClear(const Recorder& recorder) {
+    // After whatever used the probes before: their content is dropped, but a layout change is a write too.
     recorder.orderAll();
+    const auto used = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite;
     const auto all = vk::ImageSubresourceRange(vk::ImageAspectFlagBits::eColor, 0, 1, 0, VK_REMAINING_ARRAY_LAYERS);
     std::vector<vk::ImageMemoryBarrier2> toGeneral;
     for (const Image* image : {&m_irradiance, &m_visibility})
         toGeneral.push_back({vk::PipelineStageFlagBits2::eAllCommands,
-                             {},
+                             used,
                              vk::PipelineStageFlagBits2::eTransfer,
                              vk::AccessFlagBits2::eTransferWrite,
                              vk::ImageLayout::eUndefined,
