@@ -48,7 +48,7 @@ void addBackendOptions(CLI::App& command, BackendOptions& options) {
     command
         .add_option("--tracer", options.tracer,
                     "vulkan: how rays find triangles, by ProbeGI's own BVH, by the device's ray query, or by ray query "
-                    "where the device has it (auto, the default)")
+                    "where the device has it in hardware (auto, the default)")
         ->type_name("auto|bvh|ray-query")
         ->transform(oneOf(kTracers))
         ->group(kGroup);

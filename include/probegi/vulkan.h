@@ -154,7 +154,7 @@ private:
 
 /// Second half of the first axis: how triangles are traced on the GPU.
 enum class TracerKind : std::uint8_t {
-    automatic,  ///< ray query where the device has it, else the BVH
+    automatic,  ///< ray query where the device has it in hardware, else the BVH
     bvh,        ///< the library's own wide, quantised BVH in compute: any device
     rayQuery,   ///< VK_KHR_ray_query
 };

@@ -23,7 +23,7 @@ std::string typeText(vk::PhysicalDeviceType type) {
         case vk::PhysicalDeviceType::eVirtualGpu:
             return "virtual GPU";
         case vk::PhysicalDeviceType::eCpu:
-            return "software";
+            return kSoftwareDevice;
         default:
             return "other";
     }

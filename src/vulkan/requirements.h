@@ -12,6 +12,9 @@ namespace probegi::vulkan {
 inline constexpr vk::Format kIrradianceFormat = vk::Format::eR16G16B16A16Sfloat;
 inline constexpr vk::Format kVisibilityFormat = vk::Format::eR16G16Unorm;
 
+/// DeviceInfo::type of a device that runs on the processor.
+inline constexpr const char* kSoftwareDevice = "software";
+
 /// What a device has, or what was enabled on it.
 struct Features {
     bool synchronization2 = false;

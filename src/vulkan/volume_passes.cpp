@@ -151,16 +151,10 @@ void VolumePasses::recordClear(const Recorder& recorder) {
     const auto all = vk::ImageSubresourceRange(vk::ImageAspectFlagBits::eColor, 0, 1, 0, VK_REMAINING_ARRAY_LAYERS);
     std::vector<vk::ImageMemoryBarrier2> toGeneral;
     for (const Image* image : {&m_irradiance, &m_visibility})
-        toGeneral.push_back({vk::PipelineStageFlagBits2::eAllCommands,
-                             used,
-                             vk::PipelineStageFlagBits2::eTransfer,
-                             vk::AccessFlagBits2::eTransferWrite,
-                             vk::ImageLayout::eUndefined,
-                             vk::ImageLayout::eGeneral,
-                             VK_QUEUE_FAMILY_IGNORED,
-                             VK_QUEUE_FAMILY_IGNORED,
-                             image->handle(),
-                             all});
+        toGeneral.push_back({vk::PipelineStageFlagBits2::eAllCommands, used, vk::PipelineStageFlagBits2::eTransfer,
+                             vk::AccessFlagBits2::eTransferWrite, vk::ImageLayout::eUndefined,
+                             vk::ImageLayout::eGeneral, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED,
+                             image->handle(), all});
     recorder.commands().pipelineBarrier2(vk::DependencyInfo().setImageMemoryBarriers(toGeneral), recorder.dispatcher());
     const vk::ClearColorValue black(std::array<float, 4>{});
     for (const Image* image : {&m_irradiance, &m_visibility})

@@ -9,6 +9,9 @@ namespace probegi::test {
 /// What a test of tests/backend needs to run on any backend.
 class EveryBackend : public testing::TestWithParam<Backend> {
 protected:
+    void SetUp() override {
+        if (!GetParam().possible()) GTEST_SKIP() << "this device has no ray query";
+    }
     Field makeField(const FieldDesc& desc) const { return made(GetParam().makeField(context, desc)); }
     std::unique_ptr<Tracer> makeTracer(const Scene& scene, const ScenePose& pose) const {
         return made(GetParam().makeTracer(context, scene, pose));

@@ -19,6 +19,7 @@ struct Backend {
     Result<RenderedPicture> (*renderPicture)(const Context&, const Tracer&, const Lighting&, const Field*,
                                              const PictureDesc&);
     Result<std::vector<std::uint8_t>> (*toneMap)(const HdrImage&, const ToneMap&);
+    bool (*possible)();  ///< whether this machine can run it
 
     friend std::ostream& operator<<(std::ostream& out, const Backend& backend) { return out << backend.name; }
 };
@@ -35,23 +36,33 @@ inline Result<std::vector<std::uint8_t>> toneMapOnCpu(const HdrImage& image, con
 }
 
 /// The reference of all others.
-inline constexpr Backend kCpu{"cpu", Field::create, makeEmbreeTracer, renderPicture, toneMapOnCpu};
+inline constexpr Backend kCpu{"cpu", Field::create, makeEmbreeTracer, renderPicture, toneMapOnCpu, [] { return true; }};
 
 #ifdef PROBEGI_TEST_VULKAN
-inline const Backend kVulkan{
-    "vulkan",
-    [](const Context& context, const FieldDesc& desc) { return vulkan::makeField(context, testDevice(), desc); },
-    makeVulkanTracer<vulkan::TracerKind::automatic>,
-    [](const Context& context, const Tracer& tracer, const Lighting& lighting, const Field* field,
-       const PictureDesc& desc) { return vulkan::renderPicture(context, testDevice(), tracer, lighting, field, desc); },
-    [](const HdrImage& image, const ToneMap& toneMap) { return vulkan::toneMapImage(testDevice(), image, toneMap); }};
+/// The Vulkan backend with one of its tracers.
+template <vulkan::TracerKind kind>
+Backend vulkanBackend(const char* name, bool (*possible)()) {
+    return {
+        name,
+        [](const Context& context, const FieldDesc& desc) { return vulkan::makeField(context, testDevice(), desc); },
+        makeVulkanTracer<kind>,
+        [](const Context& context, const Tracer& tracer, const Lighting& lighting, const Field* field,
+           const PictureDesc& desc) {
+            return vulkan::renderPicture(context, testDevice(), tracer, lighting, field, desc);
+        },
+        [](const HdrImage& image, const ToneMap& toneMap) {
+            return vulkan::toneMapImage(testDevice(), image, toneMap);
+        },
+        possible};
+}
 #endif
 
 inline std::span<const Backend> backends() {
     static const Backend all[] = {
         kCpu,
 #ifdef PROBEGI_TEST_VULKAN
-        kVulkan,
+        vulkanBackend<vulkan::TracerKind::bvh>("vulkanBvh", [] { return true; }),
+        vulkanBackend<vulkan::TracerKind::rayQuery>("vulkanRayQuery", [] { return testDevice().rayQuery(); }),
 #endif
     };
     return all;

@@ -101,9 +101,15 @@ TEST_F(VulkanAdopt, rayQueryIsSeenWhereItIsEnabled) {
     const auto device = vulkan::Device::adopt(log, engine.adoptDesc());
     ASSERT_TRUE(device) << device.error().message;
     EXPECT_TRUE(device->rayQuery());
-    const auto scene = vulkan::GpuScene::create(log, *device, world.scene, world.pose);
+    const auto scene =
+        vulkan::GpuScene::create(log, *device, world.scene, world.pose, {.tracer = vulkan::TracerKind::rayQuery});
     ASSERT_TRUE(scene);
     EXPECT_EQ(scene->tracer(), vulkan::TracerKind::rayQuery);
+    // Left to itself the library takes ray query where it is hardware.
+    const auto chosen = vulkan::GpuScene::create(log, *device, world.scene, world.pose);
+    ASSERT_TRUE(chosen);
+    const bool software = device->info().type == "software";
+    EXPECT_EQ(chosen->tracer(), software ? vulkan::TracerKind::bvh : vulkan::TracerKind::rayQuery);
 }
 
 TEST_F(VulkanAdopt, eachMissingFeatureIsNamed) {
