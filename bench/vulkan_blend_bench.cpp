@@ -24,7 +24,7 @@ void recordDirect(const Recorder& recorder, VulkanRoom& room, const BenchPass& p
     const PassScope scope(recorder, room.device().impl(), &profiler, "direct");
     recorder.bindVolume(room.volume().set());
     DirectPush push{};
-    push.blend.rayData = addressWords(room.rayData());
+    push.blend.rayData = packAddress(room.rayData());
     push.blend.rays = int(layout.rays);
     push.blend.probes = int(layout.probes);
     push.blend.maxDistance = layout.maxDistance;
@@ -33,7 +33,7 @@ void recordDirect(const Recorder& recorder, VulkanRoom& room, const BenchPass& p
     push.blend.significantChange = frame.desc.significantChange;
     push.blend.newDistribution = frame.desc.newDistribution;
     push.blend.ditherSeed = frame.ditherSeed;
-    push.directions = addressWords(room.directions());
+    push.directions = packAddress(room.directions());
     push.visibilityExponent = frame.desc.visibilityExponent;
     recorder.push(push);
     pass.record(recorder, layout.probes * (layout.irradianceTexels + layout.visibilityTexels));

@@ -66,8 +66,8 @@ private:
                                                m_points.out.address(), count, &profiler);
         const PassScope scope(recorder, m_room.device().impl(), &profiler, "query");
         recorder.bindVolume(m_room.volume().set());
-        recorder.push(kernels::QueryPush{.queries = addressWords(m_points.in.address()),
-                                         .irradiance = addressWords(m_points.out.address()),
+        recorder.push(kernels::QueryPush{.queries = packAddress(m_points.in.address()),
+                                         .irradiance = packAddress(m_points.out.address()),
                                          .count = count});
         (way == kTrilinear ? m_trilinear : m_visibility).record(recorder, count);
     }

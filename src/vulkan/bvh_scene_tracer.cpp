@@ -54,8 +54,8 @@ public:
         return m_nodeBuffer.bytes() + m_triangleBuffer.bytes() + m_instanceBuffer.bytes();
     }
     kernels::BvhAddresses addresses() const noexcept override {
-        return {addressWords(m_nodeBuffer.address()), addressWords(m_triangleBuffer.address()),
-                addressWords(m_instanceBuffer.address()), m_worldRoot, m_instancesRoot};
+        return {packAddress(m_nodeBuffer.address()), packAddress(m_triangleBuffer.address()),
+                packAddress(m_instanceBuffer.address()), m_worldRoot, m_instancesRoot};
     }
 
 private:

@@ -25,7 +25,7 @@ kernels::LightingBlock GpuLighting::Impl::describe(const Lighting& lighting) con
     kernels::GpuSky sky = packSky(lighting.sky);
     sky.width = skyWidth;
     sky.height = skyHeight;
-    return {addressWords(lights.address()), addressWords(skyPixels.address()), sky, int(lighting.lights.size())};
+    return {packAddress(lights.address()), packAddress(skyPixels.address()), sky, int(lighting.lights.size())};
 }
 
 GpuLighting::GpuLighting(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}

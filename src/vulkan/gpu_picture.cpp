@@ -36,8 +36,8 @@ public:
         m_bandRows = int(std::clamp<std::size_t>(kSamplesPerBand / perRow, 1, std::size_t(desc.height)));
         m_samples = Buffer(device.impl(), "picture samples",
                            std::size_t(m_bandRows) * perRow * sizeof(kernels::GpuSample), kAddressed);
-        m_push.samples = addressWords(m_samples.address());
-        m_push.lighting = addressWords(lighting.impl().address());
+        m_push.samples = packAddress(m_samples.address());
+        m_push.lighting = packAddress(lighting.impl().address());
         const PlacedCamera& camera = desc.camera;
         m_push.camera =
             kernels::makePinhole(camera.position, camera.forward, camera.up, camera.yfov, desc.width, desc.height);
@@ -54,7 +54,7 @@ public:
         const std::size_t pixels = std::size_t(m_push.rows) * std::size_t(m_desc.width);
         m_push.sampleCount = std::uint32_t(pixels) * std::uint32_t(m_desc.samplesPerAxis * m_desc.samplesPerAxis);
         m_exchange.begin(0, kLayers * pixels * sizeof(glm::vec3));
-        m_push.layers = addressWords(m_exchange.out());
+        m_push.layers = packAddress(m_exchange.out());
         m_exchange.run([&](const Recorder& recorder) { record(recorder, pixels); },
                        kLayers * pixels * sizeof(glm::vec3));
         store(picture, pixels);

@@ -100,16 +100,16 @@ Bounds GpuScene::Impl::placedBounds() const {
 
 kernels::SceneConstants GpuScene::Impl::constants() const {
     kernels::SceneConstants c{};
-    c.scene.vertices = addressWords(vertices.address());
-    c.scene.triangles = addressWords(triangles.address());
-    c.scene.uv1 = addressWords(uv1.address());
-    c.scene.tangents = addressWords(tangents.address());
-    c.scene.meshes = addressWords(meshes.address());
-    c.scene.instances = addressWords(instances.address());
-    c.scene.materials = addressWords(materials.address());
-    c.scene.textures = addressWords(textures.address());
-    c.scene.texels = addressWords(texels.address());
-    c.scene.srgbTable = addressWords(srgbTable.address());
+    c.scene.vertices = packAddress(vertices.address());
+    c.scene.triangles = packAddress(triangles.address());
+    c.scene.uv1 = packAddress(uv1.address());
+    c.scene.tangents = packAddress(tangents.address());
+    c.scene.meshes = packAddress(meshes.address());
+    c.scene.instances = packAddress(instances.address());
+    c.scene.materials = packAddress(materials.address());
+    c.scene.textures = packAddress(textures.address());
+    c.scene.texels = packAddress(texels.address());
+    c.scene.srgbTable = packAddress(srgbTable.address());
     c.scene.magnitude = sceneMagnitude(bounds);
     c.bvh = tracer->addresses();
     return c;

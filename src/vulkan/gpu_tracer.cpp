@@ -60,8 +60,8 @@ void GpuTracer::closestHits(std::span<const Ray> rays, std::span<Hit> hits) cons
     const std::lock_guard lock(m_mutex);
     inPieces(m_device, rays.size(), [&](std::size_t first, std::size_t count) {
         m_exchange.begin(count * sizeof(Ray), count * sizeof(Hit));
-        kernels::RaysPush push{.rays = addressWords(m_exchange.add(rays.subspan(first, count))),
-                               .hits = addressWords(m_exchange.out()),
+        kernels::RaysPush push{.rays = packAddress(m_exchange.add(rays.subspan(first, count))),
+                               .hits = packAddress(m_exchange.out()),
                                .results = {},
                                .count = std::uint32_t(count)};
         m_exchange.run(
@@ -81,9 +81,9 @@ void GpuTracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> bloc
     const std::lock_guard lock(m_mutex);
     inPieces(m_device, rays.size(), [&](std::size_t first, std::size_t count) {
         m_exchange.begin(count * sizeof(Ray), count * sizeof(std::uint32_t));
-        kernels::RaysPush push{.rays = addressWords(m_exchange.add(rays.subspan(first, count))),
+        kernels::RaysPush push{.rays = packAddress(m_exchange.add(rays.subspan(first, count))),
                                .hits = {},
-                               .results = addressWords(m_exchange.out()),
+                               .results = packAddress(m_exchange.out()),
                                .count = std::uint32_t(count)};
         m_exchange.run(
             [&](const Recorder& recorder) {
@@ -102,9 +102,9 @@ void GpuTracer::surfaces(std::span<const Ray> rays, std::span<const Hit> hits, s
     const std::lock_guard lock(m_mutex);
     inPieces(m_device, rays.size(), [&](std::size_t first, std::size_t count) {
         m_exchange.begin(count * (sizeof(Ray) + sizeof(Hit)), count * sizeof(kernels::GpuSurface));
-        kernels::RaysPush push{.rays = addressWords(m_exchange.add(rays.subspan(first, count))),
-                               .hits = addressWords(m_exchange.add(hits.subspan(first, count))),
-                               .results = addressWords(m_exchange.out()),
+        kernels::RaysPush push{.rays = packAddress(m_exchange.add(rays.subspan(first, count))),
+                               .hits = packAddress(m_exchange.add(hits.subspan(first, count))),
+                               .results = packAddress(m_exchange.out()),
                                .count = std::uint32_t(count)};
         m_exchange.run(
             [&](const Recorder& recorder) {

@@ -45,6 +45,7 @@ private:
     kernels::GpuVolume constants(LeakGuard guard) const;
     void writeSet();
     void makeRayBuffers();
+    void beginUpdate(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler);
     void recordWeights(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler);
     void recordTrace(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
                      const GpuLighting& lighting, Profiler* profiler);

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "vulkan/address.h"
 #include "vulkan/device_impl.h"
 #include "vulkan/memory.h"
 
@@ -118,11 +119,6 @@ private:
     const Device::Impl& m_device;
     Profiler* m_profiler;
 };
-
-/// Words of an address, for push constants.
-inline glm::uvec2 addressWords(VkDeviceAddress address) {
-    return {std::uint32_t(address), std::uint32_t(address >> 32)};
-}
 
 template <class T>
 std::span<const std::byte> bytesOf(const T& value) {

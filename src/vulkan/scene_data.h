@@ -6,6 +6,7 @@
 
 #include "kernels/gpu_scene.h"
 #include "surface/scene_geometry.h"
+#include "vulkan/address.h"
 
 namespace probegi::vulkan {
 
@@ -50,10 +51,5 @@ std::vector<kernels::GpuLight> packLights(std::span<const PlacedLight> lights);
 
 /// The image's pixels are uploaded as they are.
 kernels::GpuSky packSky(const Sky& sky);
-
-/// A buffer's device address (or any 64-bit number) as shaders take it.
-constexpr glm::uvec2 packAddress(std::uint64_t address) noexcept {
-    return {std::uint32_t(address), std::uint32_t(address >> 32)};
-}
 
 }  // namespace probegi::vulkan

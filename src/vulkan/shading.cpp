@@ -50,8 +50,8 @@ Result<void> recordShading(VkCommandBuffer commands, const GpuScene& scene, cons
         const Recorder recorder(device.impl(), commands);
         if (passes) passes->recordGuard(recorder, volume->desc());
         kernels::PicturePush push{};
-        push.samples = addressWords(samples);
-        push.lighting = addressWords(lighting.impl().address());
+        push.samples = packAddress(samples);
+        push.lighting = packAddress(lighting.impl().address());
         push.sampleCount = count;
         push.flags = diffuseOnly ? kernels::kPictureDiffuseOnly : 0;
         recordSampleShading(recorder, device, scene, passes, push, profiler);
@@ -63,8 +63,8 @@ Result<void> recordToneMap(VkCommandBuffer commands, const Device& device, VkDev
     return guarded("recording a tone map", [&] {
         const Recorder recorder(device.impl(), commands);
         const PassScope scope(recorder, device.impl(), profiler, "tone map");
-        recorder.push(kernels::ToneMapPush{.pixels = addressWords(linear),
-                                           .display = addressWords(display),
+        recorder.push(kernels::ToneMapPush{.pixels = packAddress(linear),
+                                           .display = packAddress(display),
                                            .count = count,
                                            .exposure = toneMap.exposure,
                                            .filmic = toneMap.filmic ? 1 : 0});

@@ -17,6 +17,11 @@ constexpr std::uint32_t kIrradianceProbes = 16, kIrradianceTexels = 64;
 constexpr std::uint32_t kVisibilityProbes = 4;
 constexpr std::size_t kHitBytes = 24;  // Hit of shaders/types.glsl
 
+// Specialisation constants of blend_irradiance.comp.
+std::array<std::uint32_t, 1> irradianceConstants(const FieldDesc& desc) {
+    return {desc.backfaceRule == BackfaceRule::excluded ? 1u : 0u};
+}
+
 std::uint32_t groups(std::size_t count, std::uint32_t size) {
     return std::uint32_t((count + size - 1) / size);
 }
@@ -176,10 +181,10 @@ void VolumePasses::recordGuard(const Recorder& recorder, const FieldDesc& desc) 
 
 void VolumePasses::recordWeights(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler) {
     const PassScope scope(recorder, m_device.impl(), profiler, "weights");
-    recorder.push(kernels::WeightsPush{.directions = addressWords(m_directions.address()),
-                                       .irradianceWeights = addressWords(m_irradianceWeights.address()),
-                                       .visibilityCounts = addressWords(m_visibilityCounts.address()),
-                                       .visibilityWeights = addressWords(m_visibilityWeights.address()),
+    recorder.push(kernels::WeightsPush{.directions = packAddress(m_directions.address()),
+                                       .irradianceWeights = packAddress(m_irradianceWeights.address()),
+                                       .visibilityCounts = packAddress(m_visibilityCounts.address()),
+                                       .visibilityWeights = packAddress(m_visibilityWeights.address()),
                                        .rays = int(m_layout.rays),
                                        .irradianceTexels = int(m_layout.irradianceTexels),
                                        .visibilityTexels = int(m_layout.visibilityTexels),
@@ -194,10 +199,10 @@ void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& fram
     const std::uint64_t rays = std::uint64_t(m_layout.probes) * m_layout.rays;
     const std::string tracer = scene.impl().shaderSuffix();
     recorder.bindScene(scene.impl().set());
-    recorder.push(kernels::TracePush{.directions = addressWords(m_directions.address()),
-                                     .hits = addressWords(m_hits.address()),
-                                     .rayData = addressWords(m_rayData.address()),
-                                     .lighting = addressWords(lighting.impl().address()),
+    recorder.push(kernels::TracePush{.directions = packAddress(m_directions.address()),
+                                     .hits = packAddress(m_hits.address()),
+                                     .rayData = packAddress(m_rayData.address()),
+                                     .lighting = packAddress(lighting.impl().address()),
                                      .rays = int(m_layout.rays),
                                      .probes = int(m_layout.probes),
                                      .bounces = frame.bounces ? 1 : 0});
@@ -215,10 +220,10 @@ void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& fram
 
 void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData,
                                Profiler* profiler) {
-    recorder.push(kernels::BlendPush{.rayData = addressWords(rayData),
-                                     .irradianceWeights = addressWords(m_irradianceWeights.address()),
-                                     .visibilityCounts = addressWords(m_visibilityCounts.address()),
-                                     .visibilityWeights = addressWords(m_visibilityWeights.address()),
+    recorder.push(kernels::BlendPush{.rayData = packAddress(rayData),
+                                     .irradianceWeights = packAddress(m_irradianceWeights.address()),
+                                     .visibilityCounts = packAddress(m_visibilityCounts.address()),
+                                     .visibilityWeights = packAddress(m_visibilityWeights.address()),
                                      .rays = int(m_layout.rays),
                                      .probes = int(m_layout.probes),
                                      .maxDistance = m_layout.maxDistance,
@@ -230,9 +235,8 @@ void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& fram
                                      .linear = frame.linear ? 1 : 0});
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "blend irradiance");
-        const std::uint32_t excluded[] = {frame.desc.backfaceRule == BackfaceRule::excluded ? 1u : 0u};
         recorder.dispatchOver("blend_irradiance", groups(m_layout.probes, kIrradianceProbes),
-                              groups(m_layout.irradianceTexels, kIrradianceTexels), excluded);
+                              groups(m_layout.irradianceTexels, kIrradianceTexels), irradianceConstants(frame.desc));
     }
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "blend visibility");
@@ -240,15 +244,26 @@ void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& fram
     }
 }
 
-void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
-                                const GpuLighting& lighting, Profiler* profiler) {
-    makeRayBuffers();
+void VolumePasses::beginUpdate(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler) {
+    // Whatever can fail comes first: an update is recorded whole or not at all.
+    PipelineStore& pipelines = *m_device.impl().pipelines;
+    pipelines.get("blend_weights");
+    pipelines.get("blend_visibility");
+    pipelines.get("blend_irradiance", irradianceConstants(frame.desc));
     recordGuard(recorder, frame.desc);
     recorder.orderAll();
     recorder.write(m_directions, std::as_bytes(frame.directions));
     recorder.transferToCompute();
     recorder.bindVolume(set());
     recordWeights(recorder, frame, profiler);
+}
+
+void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
+                                const GpuLighting& lighting, Profiler* profiler) {
+    makeRayBuffers();
+    for (const char* shader : {"trace_probes", "shade_probes"})
+        m_device.impl().pipelines->get(shader + scene.impl().shaderSuffix());
+    beginUpdate(recorder, frame, profiler);
     recordTrace(recorder, frame, scene, lighting, profiler);
     recordBlend(recorder, frame, m_rayData.address(), profiler);
     recorder.orderAll();
@@ -256,12 +271,7 @@ void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& fra
 
 void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData,
                                 Profiler* profiler) {
-    recordGuard(recorder, frame.desc);
-    recorder.orderAll();
-    recorder.write(m_directions, std::as_bytes(frame.directions));
-    recorder.transferToCompute();
-    recorder.bindVolume(set());
-    recordWeights(recorder, frame, profiler);
+    beginUpdate(recorder, frame, profiler);
     recorder.computeToCompute();
     recordBlend(recorder, frame, rayData, profiler);
     recorder.orderAll();
@@ -273,7 +283,7 @@ void VolumePasses::recordQuery(const Recorder& recorder, const FieldDesc& desc, 
     const PassScope scope(recorder, m_device.impl(), profiler, "query");
     recorder.bindVolume(set());
     recorder.push(
-        kernels::QueryPush{.queries = addressWords(queries), .irradiance = addressWords(irradiance), .count = count});
+        kernels::QueryPush{.queries = packAddress(queries), .irradiance = packAddress(irradiance), .count = count});
     recorder.dispatchOver("query", count);
 }
 

@@ -80,8 +80,8 @@ Scene animatedScene() {
 std::vector<Hit> hitsOf(const vulkan::GpuScene& scene, std::span<const Ray> rays) {
     vulkan::Exchange exchange(testDevice());
     exchange.begin(rays.size_bytes(), rays.size() * sizeof(Hit));
-    const kernels::RaysPush push{.rays = vulkan::addressWords(exchange.add(rays)),
-                                 .hits = vulkan::addressWords(exchange.out()),
+    const kernels::RaysPush push{.rays = vulkan::packAddress(exchange.add(rays)),
+                                 .hits = vulkan::packAddress(exchange.out()),
                                  .results = {},
                                  .count = std::uint32_t(rays.size())};
     exchange.run(
