@@ -10,6 +10,8 @@
 
 namespace probegi::bench {
 
+namespace vk = vulkan::vk;
+
 /// A compute pass of bench/shaders, with the layout of the library's own.
 class BenchPass {
 public:

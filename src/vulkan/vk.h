@@ -1,8 +1,15 @@
 #pragma once
 
 // Vulkan-Hpp as this layer uses it: functions are loaded per device, nothing links the loader, and the default
-// dispatcher is never used (it is not defined anywhere, so that using it fails to link).
+// dispatcher is never used (it is not defined anywhere, so that using it fails to link). In a namespace of its own: an
+// engine that links this library may use Vulkan-Hpp itself, of another version or with other settings, and two
+// definitions of one inline function in one program are one too many.
 #define VK_NO_PROTOTYPES
 #define VULKAN_HPP_DISPATCH_LOADER_DYNAMIC 1
 #define VULKAN_HPP_ENABLE_DYNAMIC_LOADER_TOOL 0
+#define VULKAN_HPP_NAMESPACE probegi_vk
 #include <vulkan/vulkan_raii.hpp>
+
+namespace probegi::vulkan {
+namespace vk = ::probegi_vk;
+}

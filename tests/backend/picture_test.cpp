@@ -4,6 +4,7 @@
 
 #include "backend/every_backend.h"
 #include "backend/rich_scene.h"
+#include "support/scenes.h"
 
 namespace probegi::test {
 namespace {
@@ -15,12 +16,14 @@ protected:
     };
     /// The same scene, seed and frames through this backend and through the CPU.
     Taken take(int frames, const PictureDesc& desc) const {
-        const Scene scene = richScene();
+        return take(richScene(), {.counts = {6, 5, 5}}, frames, desc);
+    }
+    Taken take(const Scene& scene, const PlacementDesc& placement, int frames, const PictureDesc& desc) const {
         const ScenePose pose = poseAt(scene);
         const Lighting lighting{pose.lights, scene.sky};
         FieldDesc fieldDesc;
         fieldDesc.raysPerProbe = 64;
-        fieldDesc.grid = offTheWalls(*placeGrid(pose.bounds, {.counts = {6, 5, 5}}));
+        fieldDesc.grid = offTheWalls(*placeGrid(pose.bounds, placement));
         const auto taken = [&](const Backend& backend) {
             const auto tracer = made(backend.makeTracer(context, scene, pose));
             Field field = made(backend.makeField(context, fieldDesc));
@@ -82,6 +85,32 @@ TEST_P(BackendPicture, allLayersAreTheCpus) {
         EXPECT_LT(d.mean, 0.002) << name << ": mean absolute difference; maximum " << d.worst;
         EXPECT_LT(d.share, 0.003) << name << ": pixels that differ; maximum " << d.worst;
         RecordProperty(std::string(name) + "Worst", std::to_string(d.worst));
+        RecordProperty(std::string(name) + "Mean", std::to_string(d.mean));
+    }
+}
+
+// A real scene: textures, normal maps, masked leaves, a sun through the open roof.
+TEST_P(BackendPicture, sponzaIsTheCpus) {
+    auto loaded = loadScene(scenesFolder() / "sponza" / "sponza.glb");
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    Scene& scene = loaded->scene;
+    scene.sky.radiance = {0.6f, 0.8f, 1.2f};
+    scene.lights.push_back({.type = LightType::directional, .intensity = {9, 8, 7}});
+    scene.addNode({.rotation = glm::angleAxis(-1.3f, glm::normalize(glm::vec3(1, 0.2f, 0.1f))),
+                   .light = int(scene.lights.size()) - 1});
+    const Bounds bounds = poseAt(scene).bounds;
+    const PictureDesc desc{.camera = lookAt(bounds.centre() - glm::vec3(4, 2.5f, 0), bounds.centre()),
+                           .width = 128,
+                           .height = 72,
+                           .samplesPerAxis = 1};
+    const Taken taken = take(scene, {.targetProbes = 300}, 3, desc);
+    for (const auto& [name, layer] : layers()) {
+        const LayerDifference d = compareLayer(taken.own.*layer, taken.reference.*layer);
+        // Sponza has surfaces of two materials in the very same place, and which of them is hit is a tie: ray query
+        // shows the other one in 1 pixel of 100, with another albedo at the same depth. In the sum it is below the
+        // bound.
+        const double bound = layer == &Picture::color ? 0.002 : 0.006;
+        EXPECT_LT(d.mean, bound) << name << ": mean absolute difference; maximum " << d.worst;
         RecordProperty(std::string(name) + "Mean", std::to_string(d.mean));
     }
 }

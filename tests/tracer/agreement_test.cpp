@@ -170,10 +170,14 @@ TEST_P(TracerAgreement, inEveryBuiltinScene) {
     }
 }
 
-TEST_P(TracerAgreement, inSponza) {
-    auto loaded = loadScene(scenesFolder() / "sponza" / "sponza.glb");
-    ASSERT_TRUE(loaded) << loaded.error().message;
-    expectAgreement(World(GetParam(), std::move(loaded->scene)));
+TEST_P(TracerAgreement, inEverySceneFile) {
+    for (const char* name : {"sponza/sponza.glb", "openarena/oa_dm1.glb", "rtxgi/cornell.glb", "rtxgi/furnace.glb",
+                             "rtxgi/two-rooms.glb"}) {
+        SCOPED_TRACE(name);
+        auto loaded = loadScene(scenesFolder() / name);
+        ASSERT_TRUE(loaded) << loaded.error().message;
+        expectAgreement(World(GetParam(), std::move(loaded->scene)));
+    }
 }
 
 // What a hit looks like is the same as well, where both hit the same place.
@@ -191,7 +195,8 @@ TEST_P(TracerAgreement, surfacesLookTheSame) {
     std::size_t compared = 0, differing = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!reference[i].valid() || !sameDistance(own[i], reference[i], kRelative)) continue;
-        // Sponza has surfaces in the very same place: which of them is hit is a tie, and inSponza looks at those.
+        // Sponza has surfaces in the very same place: which of them is hit is a tie, and inEverySceneFile looks at
+        // those.
         if (own[i].primitive != reference[i].primitive || own[i].geometry != reference[i].geometry) continue;
         ++compared;
         const Surface &a = ownSurfaces[i], &b = surfaces[i];
