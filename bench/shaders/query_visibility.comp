@@ -1,5 +1,5 @@
-// Baseline of the query: the eight probes of the cage with their visibility, as section 2.2 of the DDGI paper has it: no
-// shares of backfaces, no count, no wider search.
+// Baseline of the query: the eight probes of the cage with their visibility, as section 2.2 of the DDGI paper has it:
+// no shares of backfaces, no count, no wider search.
 #include "vulkan/shaders/volume.glsl"
 
 #include "kernels/gpu_passes.h"
@@ -10,8 +10,7 @@ vec3 queryIrradiance(FieldQuery q) {
     const ivec3 counts = probegiVolume.counts;
     const vec3 position = clampToGrid(q.position, probegiVolume.origin, probegiVolume.spacing, counts);
     const vec3 bias = selfShadowBias(q.normal, q.toViewer, probegiVolume.minSpacing, probegiVolume.selfShadowBias);
-    const vec3 local =
-        gridCoordinates(position + kCageBias * bias, probegiVolume.origin, probegiVolume.inverseSpacing);
+    const vec3 local = gridCoordinates(position + kCageBias * bias, probegiVolume.origin, probegiVolume.inverseSpacing);
     const vec3 base = cageBase(local, counts);
     const vec3 alpha = cageAlpha(local, base);
     const vec2 texel = octTexelPosition(octEncode(q.normal), probegiVolume.irradianceTexels);
@@ -30,8 +29,7 @@ vec3 queryIrradiance(FieldQuery q) {
         const float weight = crushWeight(facing * visible) * trilinearFactor(float(corner.x), alpha.x) *
                              trilinearFactor(float(corner.y), alpha.y) * trilinearFactor(float(corner.z), alpha.z);
         const vec3 stored = probegiStored(cell, texel);
-        sum += weight *
-               vec3(decodeToBlendSpace(stored.x), decodeToBlendSpace(stored.y), decodeToBlendSpace(stored.z));
+        sum += weight * vec3(decodeToBlendSpace(stored.x), decodeToBlendSpace(stored.y), decodeToBlendSpace(stored.z));
         weightSum += weight;
     }
     const vec3 root = sum / weightSum;

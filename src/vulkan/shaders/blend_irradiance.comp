@@ -54,8 +54,7 @@ void loadWeights(int firstTexel, int texels, int firstRay) {
         const int ray = firstRay + i / kTexels;
         const int texel = firstTexel + i % kTexels;
         const bool inside = ray < push.rays && texel < texels;
-        weights[i / kTexels][i % kTexels] =
-            inside ? Floats(push.irradianceWeights).at[ray * texels + texel] : 0.0;
+        weights[i / kTexels][i % kTexels] = inside ? Floats(push.irradianceWeights).at[ray * texels + texel] : 0.0;
     }
 }
 
@@ -66,8 +65,8 @@ void store(int probe, int texel, vec3 newMean) {
     const ivec2 at = ivec2(texel % size, texel / size);
     const vec3 old = imageLoad(irradianceImage, ivec3(tile + at, cell.z)).rgb;
     const BlendRule rule = BlendRule(push.irradianceHysteresis, push.significantChange, push.newDistribution);
-    const uvec3 bits = blendIrradianceTexel(old, newMean, rule, push.linear != 0, push.ditherSeed,
-                                            uint(probe * size * size + texel));
+    const uvec3 bits =
+        blendIrradianceTexel(old, newMean, rule, push.linear != 0, push.ditherSeed, uint(probe * size * size + texel));
     // Exact in the image's halves: they were rounded already, with the dither.
     const vec4 stored = vec4(unpackHalf(bits.x), unpackHalf(bits.y), unpackHalf(bits.z), 0.0);
     imageStore(irradianceImage, ivec3(tile + at, cell.z), stored);
@@ -118,10 +117,10 @@ void main() {
             const int probe = firstProbe + 4 * myFour + p;
             if (texel >= texels || probe >= push.probes) continue;
             const vec4 mean = vec4(sum[t][0][p], sum[t][1][p], sum[t][2][p], sum[t][3][p]);
-            store(probe, texel, kExcludeBackfaces == 0 ? mean.xyz
-                                                       : vec3(withoutBackfaces(mean.x, mean.w),
-                                                              withoutBackfaces(mean.y, mean.w),
-                                                              withoutBackfaces(mean.z, mean.w)));
+            store(probe, texel,
+                  kExcludeBackfaces == 0 ? mean.xyz
+                                         : vec3(withoutBackfaces(mean.x, mean.w), withoutBackfaces(mean.y, mean.w),
+                                                withoutBackfaces(mean.z, mean.w)));
         }
     }
     counts[thread / kRays][thread % kRays] = seen;

@@ -1,6 +1,6 @@
-// Weights of the frame's rays for all texels of a probe, the same for all probes (DDGI paper, eq. 1 and its power-cosine
-// form). One thread a texel. Irradiance weights are a dense matrix. Visibility weights fall so fast that nine rays in
-// ten count for less than a part in 10^8: they are lists.
+// Weights of the frame's rays for all texels of a probe, the same for all probes (DDGI paper, eq. 1 and its
+// power-cosine form). One thread a texel. Irradiance weights are a dense matrix. Visibility weights fall so fast that
+// nine rays in ten count for less than a part in 10^8: they are lists.
 #include "common.glsl"
 
 #include "kernels/gpu_passes.h"

@@ -17,8 +17,8 @@ void main() {
     useLighting(push.lighting);
     const Surface surface = sampleSurface(s);
     const mat3 frame = orthonormalBasis(surface.shadingNormal);
-    const Bsdf bsdf = makeBsdf(surface.albedo, surface.metallic, surface.roughness,
-                               (push.flags & kPictureDiffuseOnly) != 0);
+    const Bsdf bsdf =
+        makeBsdf(surface.albedo, surface.metallic, surface.roughness, (push.flags & kPictureDiffuseOnly) != 0);
     const vec3 toViewer = toLocal(frame, -s.direction);
     vec3 direct = s.direct;
     for (int i = 0; i < PROBEGI_SCENE.lightCount; ++i) {

@@ -97,14 +97,16 @@ vec3 textureColor(GpuTexture image, vec2 uv) {
 vec3 textureData(GpuTexture image, vec2 uv) {
     const SceneFootprint f = sceneFootprint(image, uv);
     return blendTexels(f.weights, texelCodes(f.texel[0]), texelCodes(f.texel[1]), texelCodes(f.texel[2]),
-                       texelCodes(f.texel[3])) * (1.0 / 255.0);
+                       texelCodes(f.texel[3])) *
+           (1.0 / 255.0);
 }
 
 // Alpha divided by 255.
 float textureAlpha(GpuTexture image, vec2 uv) {
     const SceneFootprint f = sceneFootprint(image, uv);
     return blendTexels(f.weights, float(texelCode(f.texel[0], 3)), float(texelCode(f.texel[1], 3)),
-                       float(texelCode(f.texel[2], 3)), float(texelCode(f.texel[3], 3))) * (1.0 / 255.0);
+                       float(texelCode(f.texel[2], 3)), float(texelCode(f.texel[3], 3))) *
+           (1.0 / 255.0);
 }
 
 GpuTexture sceneTexture(int index) {
@@ -170,8 +172,9 @@ vec4 sceneTangent(SceneCorners t, int uvSet) {
     if (t.mesh.firstTangent >= 0) {
         SceneTangents tangents = SceneTangents(PROBEGI_SCENE.tangents);
         const uint first = uint(t.mesh.firstTangent);
-        const vec4 given = interpolate(tangents.at[first + t.triangle.vertex.x], tangents.at[first + t.triangle.vertex.y],
-                                       tangents.at[first + t.triangle.vertex.z], t.barycentric);
+        const vec4 given =
+            interpolate(tangents.at[first + t.triangle.vertex.x], tangents.at[first + t.triangle.vertex.y],
+                        tangents.at[first + t.triangle.vertex.z], t.barycentric);
         if (given.w != 0.0) return given;
     }
     const CornerUvs uvs = sceneUvs(t, uvSet);

@@ -17,6 +17,5 @@ void main() {
     useSceneOnly();
     const vec3 origin =
         probePlace(gpuProbeCell(probe, probegiVolume.counts), probegiVolume.origin, probegiVolume.spacing);
-    Hits(push.hits).at[index] =
-        closestHit(Ray(origin, 0.0, Vec3s(push.directions).at[ray], kNoHitDistance));
+    Hits(push.hits).at[index] = closestHit(Ray(origin, 0.0, Vec3s(push.directions).at[ray], kNoHitDistance));
 }

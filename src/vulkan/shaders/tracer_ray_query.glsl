@@ -14,12 +14,12 @@ layout(set = 1, binding = 1) uniform accelerationStructureEXT sceneStructure;
 #define RAY_QUERY_INSTANCE(query, committed) (rayQueryGetIntersectionInstanceCustomIndexEXT(query, committed) - 1)
 
 // Candidates are points of masked triangles: opaque ones are committed without a word.
-#define RAY_QUERY_RUN(query)                                                                                           \
-    while (rayQueryProceedEXT(query)) {                                                                                \
-        if (alphaPasses(RAY_QUERY_INSTANCE(query, false), rayQueryGetIntersectionGeometryIndexEXT(query, false),       \
-                        rayQueryGetIntersectionPrimitiveIndexEXT(query, false),                                        \
-                        rayQueryGetIntersectionBarycentricsEXT(query, false)))                                         \
-            rayQueryConfirmIntersectionEXT(query);                                                                     \
+#define RAY_QUERY_RUN(query)                                                                                     \
+    while (rayQueryProceedEXT(query)) {                                                                          \
+        if (alphaPasses(RAY_QUERY_INSTANCE(query, false), rayQueryGetIntersectionGeometryIndexEXT(query, false), \
+                        rayQueryGetIntersectionPrimitiveIndexEXT(query, false),                                  \
+                        rayQueryGetIntersectionBarycentricsEXT(query, false)))                                   \
+            rayQueryConfirmIntersectionEXT(query);                                                               \
     }
 
 Hit closestHit(Ray ray) {

@@ -5,9 +5,9 @@
 // A half-line. Hits closer than `near` or farther than `far` do not count.
 struct Ray {
     vec3 origin;
-    float near;  // metres
+    float near;      // metres
     vec3 direction;  // unit
-    float far;  // metres
+    float far;       // metres
 };
 
 // The closest surface along a Ray. `primitive < 0`: nothing was hit.

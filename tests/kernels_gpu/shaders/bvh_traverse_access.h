@@ -15,9 +15,9 @@ KERNEL_FN BvhNode bvhNode(uint index) {
     node.children = 1u;
     node.leaves = index == 2u ? 2u : (index == 4u ? 3u : 0u);
     // Nodes 0: inner in slots 0 and 7; 1: two triangles; 2: one; 3: two instances; 4: the group's triangle.
-    node.meta = index == 0u ? uvec2(kBvhInnerMeta, (kBvhInnerMeta + 7u) << 24u)
-                            : (index == 1u ? uvec2(0x6000u, 0u)
-                                           : (index == 3u ? uvec2(0x2100u, 0x20u) : uvec2(0x200000u, 0u)));
+    node.meta = index == 0u
+                    ? uvec2(kBvhInnerMeta, (kBvhInnerMeta + 7u) << 24u)
+                    : (index == 1u ? uvec2(0x6000u, 0u) : (index == 3u ? uvec2(0x2100u, 0x20u) : uvec2(0x200000u, 0u)));
     node.lowerX = uvec2(0u, 0u);
     node.lowerY = uvec2(0u, 0u);
     node.lowerZ = uvec2(0u, 0u);
