@@ -142,6 +142,18 @@ Bytes makeJpeg(int width, int height, bool progressive) {
     return bytes;
 }
 
+// The format allows chunks of data without data, first ones too.
+TEST(ImageCodec, PngThatBeginsItsDataWithAnEmptyChunk) {
+    HdrImage image(2, 1);
+    image.pixels = {{1, 0, 0}, {0, 1, 1}};
+    Bytes png = io::encodePng(image, {});
+    const std::uint8_t empty[] = {0, 0, 0, 0, 'I', 'D', 'A', 'T', 0x35, 0xaf, 0x06, 0x1e};
+    constexpr std::size_t kHeader = 8 + 12 + 13;  // signature and IHDR
+    png.insert(png.begin() + kHeader, std::begin(empty), std::end(empty));
+    EXPECT_EQ(io::decodePng(png).pixels, image.pixels);
+    EXPECT_EQ(io::decodePngTexture(png).rgba, Bytes({255, 0, 0, 255, 0, 255, 255, 255}));
+}
+
 TEST(ImageCodec, ReadsJpeg) {
     for (const bool progressive : {false, true}) {
         const Bytes bytes = makeJpeg(33, 17, progressive);
