@@ -51,6 +51,11 @@ struct WeightsPush {
     float visibilityExponent;
 };
 
+// What a work group of the blends makes.
+KERNEL_CONST int kIrradianceGroupProbes = 16;
+KERNEL_CONST int kIrradianceGroupTexels = 64;
+KERNEL_CONST int kVisibilityGroupProbes = 4;  // and all their texels
+
 // Both blends (blend_irradiance.comp, blend_visibility.comp).
 struct BlendPush {
     uvec2 rayData;            // RayDatum[probe][ray]

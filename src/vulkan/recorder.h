@@ -79,10 +79,6 @@ public:
         barrier(vk::PipelineStageFlagBits2::eTransfer, vk::AccessFlagBits2::eTransferWrite,
                 vk::PipelineStageFlagBits2::eComputeShader, kShaderAccess | vk::AccessFlagBits2::eUniformRead);
     }
-    void computeToTransfer() const {
-        barrier(vk::PipelineStageFlagBits2::eComputeShader, kShaderAccess, vk::PipelineStageFlagBits2::eTransfer,
-                vk::AccessFlagBits2::eTransferRead | vk::AccessFlagBits2::eTransferWrite);
-    }
     void transferToHost() const {
         barrier(vk::PipelineStageFlagBits2::eTransfer, vk::AccessFlagBits2::eTransferWrite,
                 vk::PipelineStageFlagBits2::eHost, vk::AccessFlagBits2::eHostRead);

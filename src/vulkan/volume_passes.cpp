@@ -12,18 +12,13 @@ namespace probegi::vulkan {
 
 namespace {
 
-// Of blend_irradiance.comp and blend_visibility.comp.
-constexpr std::uint32_t kIrradianceProbes = 16, kIrradianceTexels = 64;
-constexpr std::uint32_t kVisibilityProbes = 4;
-constexpr std::size_t kHitBytes = 24;  // Hit of shaders/types.glsl
-
 // Specialisation constants of blend_irradiance.comp.
 std::array<std::uint32_t, 1> irradianceConstants(const FieldDesc& desc) {
     return {desc.backfaceRule == BackfaceRule::excluded ? 1u : 0u};
 }
 
-std::uint32_t groups(std::size_t count, std::uint32_t size) {
-    return std::uint32_t((count + size - 1) / size);
+std::uint32_t groups(std::size_t count, int size) {
+    return std::uint32_t((count + std::size_t(size) - 1) / std::size_t(size));
 }
 
 // An atlas for maps of `texels` a side: a layer for each z, tiles with borders.
@@ -144,7 +139,7 @@ FieldMemory VolumePasses::memory() const noexcept {
 void VolumePasses::makeRayBuffers() {
     if (m_rayData) return;
     const std::size_t rays = m_layout.probes * m_layout.rays;
-    Buffer hits(m_device.impl(), "probe ray hits", rays * kHitBytes, kAddressed);
+    Buffer hits(m_device.impl(), "probe ray hits", rays * sizeof(Hit), kAddressed);
     m_rayData = Buffer(m_device.impl(), "probe ray data", rays * sizeof(RayDatum), kAddressed);
     m_hits = std::move(hits);
 }
@@ -235,12 +230,13 @@ void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& fram
                                      .linear = frame.linear ? 1 : 0});
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "blend irradiance");
-        recorder.dispatchOver("blend_irradiance", groups(m_layout.probes, kIrradianceProbes),
-                              groups(m_layout.irradianceTexels, kIrradianceTexels), irradianceConstants(frame.desc));
+        recorder.dispatchOver("blend_irradiance", groups(m_layout.probes, kernels::kIrradianceGroupProbes),
+                              groups(m_layout.irradianceTexels, kernels::kIrradianceGroupTexels),
+                              irradianceConstants(frame.desc));
     }
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "blend visibility");
-        recorder.dispatchOver("blend_visibility", groups(m_layout.probes, kVisibilityProbes), 1);
+        recorder.dispatchOver("blend_visibility", groups(m_layout.probes, kernels::kVisibilityGroupProbes), 1);
     }
 }
 

@@ -16,8 +16,8 @@ layout(push_constant, scalar) uniform Push {
     BlendPush push;
 };
 
-const int kTexels = 64;
-const int kProbes = 16;
+const int kTexels = kIrradianceGroupTexels;
+const int kProbes = kIrradianceGroupProbes;
 const int kRays = 16;
 const int kBlock = 4;  // texels, and probes, of a thread; a thread loads a ray of as many probes
 const int kTexelThreads = kTexels / kBlock;

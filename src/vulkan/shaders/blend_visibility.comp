@@ -15,7 +15,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Ray
     GpuRayWeight at[];
 };
 
-const int kProbes = 4;
+const int kProbes = kVisibilityGroupProbes;
 const int kRays = 256;  // that lie in shared memory at a time
 
 shared vec4 distances[kRays];  // as fractions of the farthest, of each probe
