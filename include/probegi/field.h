@@ -26,6 +26,12 @@ enum class BackfaceRule : std::uint8_t {
     excluded,    ///< is left out of the average
 };
 
+/// Which rules a field follows where measurements led away from the paper (docs/accuracy.md has the list).
+enum class FieldRules : std::uint8_t {
+    measured,  ///< what came out nearer to the path tracer
+    paper,     ///< exactly what sections 2 and 4 of the paper say
+};
+
 /// How a Field is made. Distances are fractions of probe spacing: nothing here depends on the scene's scale.
 struct FieldDesc {
     GridDesc grid{};
@@ -40,6 +46,7 @@ struct FieldDesc {
     float newDistribution = 0.8f;        ///< Listing 3, 0..1, same scale; 0 disables
     BackfaceRule backfaceRule = BackfaceRule::zeroSample;
     LeakGuard guard = LeakGuard::moments;
+    FieldRules rules = FieldRules::measured;
     std::uint64_t seed = 1;  ///< of the per-frame ray rotation and the storage dither
 };
 

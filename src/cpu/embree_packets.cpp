@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "cpu/embree_float_mode.h"
+#include "core/float_mode.h"
 
 namespace probegi {
 
@@ -128,7 +128,7 @@ EmbreePackets::EmbreePackets(RTCScene scene, float originSpread, bool instanced)
 }
 
 void EmbreePackets::closestHits(std::span<const Ray> rays, std::span<Hit> hits) {
-    const EmbreeFloatMode floatMode;
+    const FloatMode floatMode;
     if (rays.size() == 1) {
         hits[0] = closestHit(m_scene, &m_incoherent, rays[0]);
         return;
@@ -149,7 +149,7 @@ void EmbreePackets::closestHits(std::span<const Ray> rays, std::span<Hit> hits) 
 }
 
 void EmbreePackets::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
-    const EmbreeFloatMode floatMode;
+    const FloatMode floatMode;
     if (rays.size() == 1) {
         blocked[0] = occludedOne(m_scene, &m_incoherent, rays[0]);
         return;

@@ -16,17 +16,19 @@ namespace {
 // Probes a task: wide enough for the matrix product, small enough for the second-level cache.
 constexpr std::size_t kBlock = 32;
 
-template <class Weight>
+// `weightsOf(n)` gives a function from a ray's direction to its weight for the texel in direction n.
+template <class WeightsOf>
 void fillWeights(const Context& context, int size, std::span<const glm::vec3> directions, std::vector<float>& out,
-                 const Weight& weight) {
+                 const WeightsOf& weightsOf) {
     const std::size_t texels = std::size_t(size) * size;
     out.resize(directions.size() * texels);
     parallelFor(context, texels, 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t texel = begin; texel < end; ++texel) {
             const glm::vec3 n = kernels::octTexelDirection(int(texel) % size, int(texel) / size, size);
+            const auto weight = weightsOf(n);
             float sum = 0;
             for (std::size_t ray = 0; ray < directions.size(); ++ray)
-                sum += out[ray * texels + texel] = weight(n, directions[ray]);
+                sum += out[ray * texels + texel] = weight(directions[ray]);
             const float scale = kernels::normalisingFactor(sum);
             for (std::size_t ray = 0; ray < directions.size(); ++ray) out[ray * texels + texel] *= scale;
         }
@@ -115,9 +117,14 @@ FieldStorage::FieldStorage(const FieldLayout& layout)
 void makeBlendWeights(const Context& context, const FieldDesc& desc, std::span<const glm::vec3> directions,
                       BlendWeights& weights) {
     fillWeights(context, desc.irradianceTexels, directions, weights.irradiance,
-                [](glm::vec3 n, glm::vec3 w) { return kernels::irradianceWeight(n, w); });
-    fillWeights(context, desc.visibilityTexels, directions, weights.visibility,
-                [&](glm::vec3 n, glm::vec3 w) { return kernels::visibilityWeight(n, w, desc.visibilityExponent); });
+                [](glm::vec3 n) { return [n](glm::vec3 w) { return kernels::irradianceWeight(n, w); }; });
+    const float exponent = desc.visibilityExponent;
+    fillWeights(context, desc.visibilityTexels, directions, weights.visibility, [&](glm::vec3 n) {
+        float nearest = 0;
+        for (const glm::vec3& w : directions) nearest = std::max(nearest, glm::dot(n, w));
+        const float least = kernels::leastVisibilityCosine(nearest, exponent);
+        return [=](glm::vec3 w) { return glm::dot(n, w) > least ? kernels::visibilityWeight(n, w, exponent) : 0.0f; };
+    });
 }
 
 void blendProbes(const Context& context, const FieldDesc& desc, const FieldLayout& layout, const BlendWeights& weights,

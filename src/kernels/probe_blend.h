@@ -50,6 +50,15 @@ KERNEL_FN float irradianceWeight(vec3 texelDirection, vec3 rayDirection) {
     return max(0.0f, dot(texelDirection, rayDirection));
 }
 
+// Visibility weights below this share of a texel's largest count for nothing: powers of small cosines are nine weights
+// in ten, and many of them denormal numbers, which cost some processors a hundred cycles each.
+KERNEL_CONST float kNegligibleWeight = 1e-8f;
+
+// Cosine at which a ray's weight is negligible, where `nearest` is the largest cosine of all rays.
+KERNEL_FN float leastVisibilityCosine(float nearest, float exponent) {
+    return max(nearest, 0.0f) * pow(kNegligibleWeight, 1.0f / exponent);
+}
+
 // Weight of a ray for a visibility texel: the power cosine of section 2.3.
 KERNEL_FN float visibilityWeight(vec3 texelDirection, vec3 rayDirection, float exponent) {
     return pow(max(0.0f, dot(texelDirection, rayDirection)), exponent);

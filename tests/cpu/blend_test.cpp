@@ -107,6 +107,21 @@ TEST_P(BlendRules, matrixProductEqualsTheDirectSum) {
 }
 INSTANTIATE_TEST_SUITE_P(Blend, BlendRules, testing::Values(BackfaceRule::zeroSample, BackfaceRule::excluded));
 
+// Powers of small cosines end in denormal numbers, which some processors multiply a hundred times as slowly.
+TEST(BlendWeights, AreNormalNumbersOrZero) {
+    BlendInput s;
+    s.desc.visibilityExponent = 100;
+    BlendWeights weights;
+    makeBlendWeights(*Context::create({.threads = 1}), s.desc, s.directions, weights);
+    std::size_t zeros = 0;
+    for (const std::vector<float>* all : {&weights.irradiance, &weights.visibility})
+        for (const float w : *all) {
+            EXPECT_TRUE(w == 0 || w > 1e-12f) << w;
+            zeros += w == 0 ? 1 : 0;
+        }
+    EXPECT_GT(zeros, weights.visibility.size() / 2);
+}
+
 TEST(Blend, isTheSameForAnyNumberOfThreads) {
     BlendInput one, three;
     one.blend(1);

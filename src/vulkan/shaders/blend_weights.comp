@@ -14,9 +14,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RayWeights {
     GpuRayWeight at[];
 };
 
-// Weights below this share of the largest are left out.
-const float kNegligible = 1e-8;
-
 void irradianceTexel(int texel) {
     const vec3 n = octTexelDirection(texel % push.irradianceSize, texel / push.irradianceSize, push.irradianceSize);
     Vec3s directions = Vec3s(push.directions);
@@ -33,8 +30,7 @@ void visibilityTexel(int texel) {
     Vec3s directions = Vec3s(push.directions);
     float nearest = 0.0;
     for (int ray = 0; ray < push.rays; ++ray) nearest = max(nearest, dot(n, directions.at[ray]));
-    // The cosine whose power is kNegligible of the nearest ray's: most rays need no power.
-    const float leastCosine = nearest * pow(kNegligible, 1.0 / push.visibilityExponent);
+    const float leastCosine = leastVisibilityCosine(nearest, push.visibilityExponent);
     float sum = 0.0;
     for (int ray = 0; ray < push.rays; ++ray)
         if (dot(n, directions.at[ray]) > leastCosine)
