@@ -36,9 +36,12 @@ enum class FieldRules : std::uint8_t {
 struct FieldDesc {
     GridDesc grid{};
     int raysPerProbe = 144;     ///< update rays a probe and frame, 8..4096
+    int fixedRays = 32;         ///< more rays a probe and update, always along the same directions: they tell change
+                                ///< from noise (FieldRules::measured only); 0..256; 0: change is not looked for
     int irradianceTexels = 8;   ///< side of the octahedral irradiance map, 4..32, even
     int visibilityTexels = 16;  ///< side of the octahedral visibility map, 4..64, even
-    float hysteresis = 0.97f;   ///< share of the old irradiance that survives an update (alpha of eq. 1), 0..0.999
+    float hysteresis = 0.97f;   ///< share of the old irradiance that survives an update (alpha of eq. 1), 0..0.999;
+                                ///< with FieldRules::measured only after events, and where there are no fixed rays
     float visibilityHysteresis = 0.97f;  ///< the same for distance moments, 0..0.999
     float visibilityExponent = 100.0f;   ///< power of the cosine that weights distances, 1..500
     float selfShadowBias = 0.3f;         ///< TunableShadowBias of eq. 2, 0..2
@@ -54,6 +57,13 @@ struct FieldDesc {
 struct RayDatum {
     glm::vec3 radiance{0.0f};  ///< W sr^-1 m^-2 arriving at the probe; a channel not in 0..1e30 counts as 0
     float distance = 0.0f;     ///< metres; negative: minus the distance to a backface; a miss: anything >= 1e27
+};
+
+/// What one fixed ray of one probe brought home: the sum of both lights is what a RayDatum of that direction holds.
+struct FixedRayDatum {
+    float direct = 0;   ///< luminance of light from lights, emission and sky, W sr^-1 m^-2; not in 0..1e30: counts as 0
+    float bounced = 0;  ///< luminance of light that the surface got from the field; the same
+    float distance = 0;  ///< as RayDatum::distance
 };
 
 /// A question to the field: how much light arrives at `position` on a surface that faces `normal`?
@@ -105,9 +115,15 @@ public:
     /// set under this frame's random rotation (section 2.3).
     std::span<const glm::vec3> rayDirections() const noexcept;
 
+    /// Unit directions of the fixed rays, the same for all updates and probes; desc().fixedRays of them, none with
+    /// FieldRules::paper.
+    std::span<const glm::vec3> fixedRayDirections() const noexcept;
+
     /// One update from the caller's own rays: datum [probe * raysPerProbe + ray] came along rayDirections()[ray] from
-    /// probePosition(desc().grid, probe). Errors: invalidArgument (wrong length), outOfMemory.
-    Result<UpdateTimes> update(std::span<const RayDatum> rayData);
+    /// probePosition(desc().grid, probe). `fixedRays`, [probe * fixedRays + ray] along fixedRayDirections(), lets the
+    /// field follow changes at once and forget noise for long; without it (empty) old light fades by desc().hysteresis.
+    /// Errors: invalidArgument (wrong length), outOfMemory.
+    Result<UpdateTimes> update(std::span<const RayDatum> rayData, std::span<const FixedRayDatum> fixedRays = {});
 
     /// One update with the library's pipeline: trace, shade with `lighting` and last frame's field, blend. All surfaces
     /// reflect as Lambert of their base colour, at most 0.98 of it: a closed room of albedo 1 has no steady state.

@@ -246,6 +246,8 @@ public:
     FieldMemory memory() const noexcept;  ///< of GPU memory
     /// As Field::rayDirections: of the coming update.
     std::span<const glm::vec3> rayDirections() const noexcept;
+    /// As Field::fixedRayDirections: the same for all updates.
+    std::span<const glm::vec3> fixedRayDirections() const noexcept;
     void notify(FieldEvent event) noexcept;
     void setGuard(LeakGuard guard) noexcept;  ///< of passes recorded from now on
 
@@ -264,6 +266,11 @@ public:
     /// shader reads. Radiance that is not a number or infinite counts as 0.
     /// Errors: outOfMemory.
     Result<void> recordUpdate(VkCommandBuffer commands, VkDeviceAddress rayData, Profiler* profiler = nullptr);
+
+    /// The same with fixed rays, as Field::update: `fixedRays` is the address of FixedRayDatum (12 bytes)
+    /// [probe * fixedRays + ray] along fixedRayDirections(), a multiple of 4; 0: none.
+    Result<void> recordUpdate(VkCommandBuffer commands, VkDeviceAddress rayData, VkDeviceAddress fixedRays,
+                              Profiler* profiler = nullptr);
 
     /// Irradiance at `count` points, at most 2^30. `queries`: address of FieldQuery[count] (36 bytes each);
     /// `irradiance`: address of vec3[count] (12 bytes each), W m^-2; multiples of 4. The caller orders its own buffers

@@ -52,15 +52,22 @@ FieldView CpuField::view(const FieldDesc& desc) const noexcept {
             .inverseMaxDistance = 1.0f / m_layout.maxDistance};
 }
 
-void CpuField::blend(const UpdateFrame& frame, std::span<const RayDatum> rayData) {
+void CpuField::blend(const UpdateFrame& frame, std::span<const RayDatum> rayData,
+                     std::span<const FixedRayDatum> fixedRays) {
     makeBlendWeights(m_context, frame.desc, frame.directions, m_weights);
-    blendProbes(m_context, frame.desc, m_layout, m_weights, rayData, {frame.hysteresis, frame.linear, frame.ditherSeed},
-                m_storage);
+    BlendFrame how{frame.hysteresis, frame.linear, frame.ditherSeed};
+    if (frame.windows) how.steps = m_filter.chooseWindows(m_context, frame, m_layout, rayData, fixedRays, m_storage);
+    blendProbes(m_context, frame.desc, m_layout, m_weights, rayData, how, m_storage);
+    if (frame.windows)
+        m_filter.advance(m_context, frame, m_storage);
+    else
+        forgetFilters(m_storage, 1.0f / (1.0f - frame.hysteresis.irradiance));
 }
 
-Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, std::span<const RayDatum> rayData) {
+Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, std::span<const RayDatum> rayData,
+                                     std::span<const FixedRayDatum> fixedRays) {
     const auto start = Clock::now();
-    blend(frame, rayData);
+    blend(frame, rayData, fixedRays);
     const double elapsed = millisecondsSince(start);
     return UpdateTimes{0, 0, elapsed, elapsed};
 }
@@ -68,6 +75,7 @@ Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, std::span<const R
 Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, const Tracer& tracer, const Lighting& lighting) {
     const auto start = Clock::now();
     m_rayData.resize(m_layout.probes * m_layout.rays);
+    m_fixedRays.resize(m_layout.probes * frame.fixedDirections.size());
     TraceTimes sums;
     const FieldView last = view(frame.desc);
     BounceQuery bounces;
@@ -75,9 +83,10 @@ Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, const Tracer& tra
         bounces = [&](std::span<const FieldQuery> queries, std::span<glm::vec3> out) {
             queryIrradiance(last, queries, out);
         };
-    traceProbes(m_context, frame.desc.grid, frame.directions, tracer, lighting, bounces, m_rayData, sums);
+    traceProbes(m_context, frame.desc.grid, {frame.directions, frame.fixedDirections}, tracer, lighting, bounces,
+                {m_rayData, m_fixedRays}, sums);
     const double traced = millisecondsSince(start);
-    blend(frame, m_rayData);
+    blend(frame, m_rayData, m_fixedRays);
 
     // Stages of different threads overlap: the wall time of tracing and shading is split in their proportion.
     const double sum = std::max(1.0, double(sums.traceNs + sums.shadeNs));
@@ -121,8 +130,10 @@ Result<std::vector<float>> CpuField::brightness() const {
 FieldMemory CpuField::memory() const noexcept {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return {bytes(m_storage.irradiance), bytes(m_storage.visibility),
-            bytes(m_storage.backfaceShare) + bytes(m_irradianceTaps) + bytes(m_visibilityTaps) + sizeof(*this),
-            bytes(m_rayData) + bytes(m_weights.irradiance) + bytes(m_weights.visibility)};
+            bytes(m_storage.filters) + bytes(m_storage.backfaceShare) + bytes(m_irradianceTaps) +
+                bytes(m_visibilityTaps) + sizeof(*this),
+            bytes(m_rayData) + bytes(m_fixedRays) + bytes(m_weights.irradiance) + bytes(m_weights.visibility) +
+                m_filter.bytes()};
 }
 
 float CpuField::probeBackfaceShare(int probe) const noexcept {

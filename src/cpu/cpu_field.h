@@ -5,6 +5,7 @@
 
 #include "cpu/probe_blend.h"
 #include "cpu/probe_query.h"
+#include "cpu/temporal_filter.h"
 #include "field/field_backend.h"
 
 namespace probegi {
@@ -14,7 +15,8 @@ class CpuField final : public FieldBackend {
 public:
     CpuField(const Context& context, const FieldDesc& desc);
 
-    Result<UpdateTimes> update(const UpdateFrame& frame, std::span<const RayDatum> rayData) override;
+    Result<UpdateTimes> update(const UpdateFrame& frame, std::span<const RayDatum> rayData,
+                               std::span<const FixedRayDatum> fixedRays) override;
     Result<UpdateTimes> update(const UpdateFrame& frame, const Tracer& tracer, const Lighting& lighting) override;
     Result<void> irradiance(const FieldDesc& desc, std::span<const FieldQuery> queries,
                             std::span<glm::vec3> out) const override;
@@ -29,7 +31,7 @@ public:
 
 private:
     FieldView view(const FieldDesc& desc) const noexcept;
-    void blend(const UpdateFrame& frame, std::span<const RayDatum> rayData);
+    void blend(const UpdateFrame& frame, std::span<const RayDatum> rayData, std::span<const FixedRayDatum> fixedRays);
 
     Context m_context;
     FieldDesc m_desc;  // as it was made: sizes, not the guard
@@ -37,6 +39,8 @@ private:
     FieldStorage m_storage;
     TapTable m_irradianceTaps, m_visibilityTaps;
     std::vector<RayDatum> m_rayData;
+    std::vector<FixedRayDatum> m_fixedRays;
+    TemporalFilter m_filter;
     BlendWeights m_weights;
     mutable std::atomic<std::uint64_t> m_fallbacks{0};
 };

@@ -4,10 +4,11 @@
 #include <vector>
 
 #include "field/layout.h"
+#include "kernels/temporal_filter.h"
 
 namespace probegi {
 
-/// What the probes remember, in the default formats: 1,412 bytes a probe at 8x8 and 16x16 texels.
+/// What the probes remember, in the default formats: 1,444 bytes a probe at 8x8 and 16x16 texels.
 struct FieldStorage {
     explicit FieldStorage(const FieldLayout& layout);
 
@@ -16,6 +17,8 @@ struct FieldStorage {
     std::vector<std::uint16_t> irradiance;
     /// Mean (low 16 bits) and mean square (high 16 bits) of distance / maxDistance, as unorm: [probe][texel].
     std::vector<std::uint32_t> visibility;
+    /// Averages and windows of the temporal filter: [probe].
+    std::vector<kernels::PackedProbeFilter> filters;
     /// Share of the hits that were on backfaces, 0..1, averaged over frames: [probe].
     std::vector<float> backfaceShare;
 };

@@ -8,6 +8,7 @@
 #include "cpu/matrix_product.h"
 #include "kernels/octahedral_texel.h"
 #include "kernels/probe_texel.h"
+#include "kernels/temporal_filter.h"
 
 namespace probegi {
 
@@ -82,7 +83,8 @@ void divideByValidity(const Matrix& validity, Matrix& irradiance) {
 // One probe's new irradiance (rows r, g, b over the texels) joins the stored one.
 void storeIrradiance(const FieldDesc& desc, const BlendFrame& frame, const Matrix& mean, std::size_t row,
                      std::size_t probe, std::size_t texels, std::uint16_t* map) {
-    const kernels::BlendRule rule{frame.hysteresis.irradiance, desc.significantChange, desc.newDistribution};
+    const FrameHysteresis& hysteresis = frame.steps.empty() ? frame.hysteresis : frame.steps[probe].hysteresis;
+    const kernels::BlendRule rule{hysteresis.irradiance, desc.significantChange, desc.newDistribution};
     const float* r = &mean(row, 0);
     const float* g = &mean(row + 1, 0);
     const float* b = &mean(row + 2, 0);
@@ -97,9 +99,24 @@ void storeIrradiance(const FieldDesc& desc, const BlendFrame& frame, const Matri
     }
 }
 
+// How far the new irradiance lies from the stored one: kernels::relativeChange over the texels.
+float changeOf(const Matrix& mean, std::size_t row, std::size_t texels, const std::uint16_t* map) {
+    const float* r = &mean(row, 0);
+    const float* g = &mean(row + 1, 0);
+    const float* b = &mean(row + 2, 0);
+    kernels::TexelChange change = kernels::noChange();
+    for (std::size_t t = 0; t < texels; ++t) {
+        const std::uint16_t* stored = map + 3 * t;
+        const glm::vec3 old(kernels::unpackHalf(stored[0]), kernels::unpackHalf(stored[1]),
+                            kernels::unpackHalf(stored[2]));
+        kernels::addTexelChange(change, old, {r[t], g[t], b[t]});
+    }
+    return kernels::relativeChange(change, int(texels));
+}
+
 void storeVisibility(const BlendFrame& frame, const Matrix& mean, std::size_t row, std::size_t probe,
                      std::size_t texels, std::uint32_t* map) {
-    const float h = frame.hysteresis.visibility;
+    const float h = frame.steps.empty() ? frame.hysteresis.visibility : frame.steps[probe].hysteresis.visibility;
     const float* d = &mean(row, 0);
     const float* dd = &mean(row + 1, 0);
     for (std::size_t t = 0; t < texels; ++t)
@@ -112,6 +129,7 @@ void storeVisibility(const BlendFrame& frame, const Matrix& mean, std::size_t ro
 FieldStorage::FieldStorage(const FieldLayout& layout)
     : irradiance(layout.probes * layout.irradianceTexels * 3 + 1),
       visibility(layout.probes * layout.visibilityTexels),
+      filters(layout.probes),
       backfaceShare(layout.probes) {}
 
 void makeBlendWeights(const Context& context, const FieldDesc& desc, std::span<const glm::vec3> directions,
@@ -141,10 +159,14 @@ void blendProbes(const Context& context, const FieldDesc& desc, const FieldLayou
         }
         for (std::size_t probe = begin; probe < end; ++probe) {
             const std::size_t row = probe - begin;
-            storeIrradiance(desc, frame, irradiance, 3 * row, probe, layout.irradianceTexels,
-                            storage.irradiance.data() + 3 * probe * layout.irradianceTexels);
+            std::uint16_t* map = storage.irradiance.data() + 3 * probe * layout.irradianceTexels;
+            if (!frame.steps.empty())
+                frame.steps[probe].change = changeOf(irradiance, 3 * row, layout.irradianceTexels, map);
+            storeIrradiance(desc, frame, irradiance, 3 * row, probe, layout.irradianceTexels, map);
             float& share = storage.backfaceShare[probe];
-            share = glm::mix(in.backfaceShare[row], share, frame.hysteresis.visibility);
+            share =
+                glm::mix(in.backfaceShare[row], share,
+                         frame.steps.empty() ? frame.hysteresis.visibility : frame.steps[probe].hysteresis.visibility);
             storeVisibility(frame, visibility, 2 * row, probe, layout.visibilityTexels,
                             storage.visibility.data() + probe * layout.visibilityTexels);
         }

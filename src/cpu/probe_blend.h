@@ -19,11 +19,19 @@ struct BlendWeights {
 void makeBlendWeights(const Context& context, const FieldDesc& desc, std::span<const glm::vec3> directions,
                       BlendWeights& weights);
 
+/// One probe's part of a blend with windows.
+struct ProbeStep {
+    FrameHysteresis hysteresis;  ///< what its windows keep
+    float lag = 0;               ///< of its irradiance, relative
+    float change = 0;  ///< out: mean square difference between new and old texels over the square of the old mean
+};
+
 /// How the new values join the old ones.
 struct BlendFrame {
     FrameHysteresis hysteresis;
-    bool linear = false;           ///< blendLinear instead of blendEncoded: for averages
-    std::uint32_t ditherSeed = 0;  ///< differs between frames
+    bool linear = false;              ///< blendLinear instead of blendEncoded
+    std::uint32_t ditherSeed = 0;     ///< differs between frames
+    std::span<ProbeStep> steps = {};  ///< [probe]: each with its own hysteresis; empty: all with `hysteresis`
 };
 
 /// Blends the ray data of all probes into the storage: weights x data, then encoding, hysteresis and storage.

@@ -74,6 +74,9 @@ int Field::frame() const noexcept {
 std::span<const glm::vec3> Field::rayDirections() const noexcept {
     return m_impl->books.rayDirections();
 }
+std::span<const glm::vec3> Field::fixedRayDirections() const noexcept {
+    return m_impl->books.fixedRayDirections();
+}
 std::uint64_t Field::fallbackQueries() const noexcept {
     return m_impl->backend->fallbackQueries();
 }
@@ -90,14 +93,23 @@ FieldMemory Field::memory() const noexcept {
     return memory;
 }
 
-Result<UpdateTimes> Field::update(std::span<const RayDatum> rayData) try {
+Result<UpdateTimes> Field::update(std::span<const RayDatum> rayData, std::span<const FixedRayDatum> fixedRays) try {
     const FieldDesc& desc = m_impl->books.desc();
-    const std::size_t expected = std::size_t(probeCount(desc.grid)) * std::size_t(desc.raysPerProbe);
+    const std::size_t probes = std::size_t(probeCount(desc.grid));
+    const std::size_t expected = probes * std::size_t(desc.raysPerProbe);
     if (rayData.size() != expected)
         return fail(
             ErrorCode::invalidArgument,
             fmt::format("rayData has {} entries; it must have probes x raysPerProbe = {}", rayData.size(), expected));
-    return m_impl->ended(m_impl->backend->update(m_impl->books.comingUpdate(), rayData));
+    const std::size_t expectedFixed = probes * m_impl->books.fixedRayDirections().size();
+    if (!fixedRays.empty() && fixedRays.size() != expectedFixed)
+        return fail(ErrorCode::invalidArgument,
+                    fmt::format("fixedRays has {} entries; it must be empty or have an entry for each probe and each "
+                                "of fixedRayDirections(), {}",
+                                fixedRays.size(), expectedFixed));
+    const UpdateFrame frame =
+        fixedRays.empty() ? m_impl->books.comingUpdateWithoutFixedRays() : m_impl->books.comingUpdate();
+    return m_impl->ended(m_impl->backend->update(frame, rayData, fixedRays));
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, kNoRayDataMemory);
 }

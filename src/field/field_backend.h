@@ -12,8 +12,10 @@ class FieldBackend {
 public:
     virtual ~FieldBackend() = default;
 
-    /// Blends ray data [probe * raysPerProbe + ray] into the probes. The length was checked.
-    virtual Result<UpdateTimes> update(const UpdateFrame& frame, std::span<const RayDatum> rayData) = 0;
+    /// Blends ray data [probe * raysPerProbe + ray] into the probes; `fixedRays` are [probe * fixedRays + ray], or
+    /// none. The lengths were checked: fixedRays is empty exactly where the frame's fixedDirections are.
+    virtual Result<UpdateTimes> update(const UpdateFrame& frame, std::span<const RayDatum> rayData,
+                                       std::span<const FixedRayDatum> fixedRays) = 0;
     /// Traces and shades the rays of all probes, then blends.
     virtual Result<UpdateTimes> update(const UpdateFrame& frame, const Tracer& tracer, const Lighting& lighting) = 0;
     /// E in W m^-2 at each query.

@@ -1,6 +1,7 @@
 #include "field/frame_books.h"
 
 #include "kernels/ray_set.h"
+#include "kernels/temporal_filter.h"
 
 namespace probegi {
 
@@ -8,6 +9,11 @@ namespace {
 
 std::uint32_t seedOf(const FieldDesc& desc) {
     return kernels::hashCombine(std::uint32_t(desc.seed), std::uint32_t(desc.seed >> 32));
+}
+
+// The window whose rate is what a hysteresis lets in.
+float windowOf(float hysteresis) {
+    return 1.0f / (1.0f - hysteresis);
 }
 
 std::uint32_t ditherSeedOf(const FieldDesc& desc, int frame) {
@@ -18,6 +24,8 @@ std::uint32_t ditherSeedOf(const FieldDesc& desc, int frame) {
 
 FrameBooks::FrameBooks(const FieldDesc& desc) : m_desc(desc), m_directions(std::size_t(desc.raysPerProbe)) {
     turnRays();
+    const std::uint32_t fixed = desc.rules == FieldRules::measured ? std::uint32_t(desc.fixedRays) : 0u;
+    for (std::uint32_t i = 0; i < fixed; ++i) m_fixedDirections.push_back(kernels::sphericalFibonacci(i, fixed));
 }
 
 void FrameBooks::turnRays() {
@@ -27,22 +35,39 @@ void FrameBooks::turnRays() {
 }
 
 std::size_t FrameBooks::bytes() const noexcept {
-    return sizeof(*this) + m_directions.capacity() * sizeof(m_directions[0]);
+    return sizeof(*this) + (m_directions.capacity() + m_fixedDirections.capacity()) * sizeof(m_directions[0]);
 }
 
 UpdateFrame FrameBooks::comingUpdate() const noexcept {
-    return {.desc = m_desc,
-            .directions = m_directions,
-            .hysteresis = m_events.current(m_desc, m_frame == 0),
-            .linear = false,
-            .ditherSeed = ditherSeedOf(m_desc, m_frame),
-            .bounces = m_frame > 0};
+    UpdateFrame frame{.desc = m_desc,
+                      .directions = m_directions,
+                      .hysteresis = m_events.current(m_desc, m_frame == 0),
+                      .ditherSeed = ditherSeedOf(m_desc, m_frame),
+                      .bounces = m_frame > 0};
+    if (m_desc.rules == FieldRules::paper) return frame;
+    frame.linear = frame.windows = true;
+    frame.fixedDirections = m_fixedDirections;
+    // Where nothing would tell of a change, old light must fade all the same.
+    frame.longestWindow = m_events.irradianceEvent() || m_fixedDirections.empty()
+                              ? windowOf(frame.hysteresis.irradiance)
+                              : kernels::kLongestWindow;
+    frame.longestVisibilityWindow = windowOf(frame.hysteresis.visibility);
+    return frame;
+}
+
+UpdateFrame FrameBooks::comingUpdateWithoutFixedRays() const noexcept {
+    UpdateFrame frame = comingUpdate();
+    frame.fixedDirections = {};
+    frame.longestWindow = windowOf(frame.hysteresis.irradiance);
+    return frame;
 }
 
 UpdateFrame FrameBooks::comingAverage(float kept) const noexcept {
     UpdateFrame frame = comingUpdate();
     frame.hysteresis = {kept, kept};
     frame.linear = true;
+    frame.windows = false;
+    frame.fixedDirections = {};
     return frame;
 }
 

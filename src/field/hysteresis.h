@@ -17,6 +17,8 @@ public:
     void notify(FieldEvent event) noexcept;
     /// The coming frame's values. Does not advance.
     FrameHysteresis current(const FieldDesc& desc, bool firstFrame) const noexcept;
+    /// Whether an announced change lowers the coming frame's irradiance hysteresis.
+    bool irradianceEvent() const noexcept { return m_smallLight.framesLeft > 0 || m_large.framesLeft > 0; }
     /// Ends the frame.
     void advance() noexcept;
 

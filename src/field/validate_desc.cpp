@@ -34,6 +34,7 @@ Result<void> checkGrid(const GridDesc& grid) {
 Result<void> validateFieldDesc(const FieldDesc& d) {
     return checkGrid(d.grid)
         .and_then([&] { return checkRange("raysPerProbe", d.raysPerProbe, 8, 4096); })
+        .and_then([&] { return checkRange("fixedRays", d.fixedRays, 0, 256); })
         .and_then([&] { return checkMapSize("irradianceTexels", d.irradianceTexels, 32); })
         .and_then([&] { return checkMapSize("visibilityTexels", d.visibilityTexels, 64); })
         .and_then([&] { return checkRange("hysteresis", d.hysteresis, 0, 0.999f); })

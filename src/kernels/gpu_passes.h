@@ -5,6 +5,7 @@
 
 #include "kernels/gpu_scene.h"
 #include "kernels/pinhole.h"
+#include "kernels/temporal_filter.h"
 
 KERNELS_BEGIN
 
@@ -51,6 +52,33 @@ struct WeightsPush {
     float visibilityExponent;
 };
 
+// What the passes of one update hand to each other about a probe (kernels/temporal_filter.h).
+struct GpuProbeStep {
+    ProbeSight sight;
+    ProbeLag lag;
+    float lagShare;        // of its irradiance, relative
+    float irradianceKept;  // share of the old values that survives
+    float visibilityKept;
+};
+
+// The passes around a blend with windows (probe_lag.comp, probe_windows.comp, probe_filter.comp).
+struct FilterPush {
+    uvec2 steps;       // GpuProbeStep[probe]
+    uvec2 filters;     // PackedProbeFilter[probe]
+    uvec2 changes;     // TexelChange[block of texels][probe]
+    uvec2 rayData;     // FixedRayDatum[probe][ray] or, ownRays, RayDatum[probe][ray]
+    uvec2 directions;  // vec3[ray]
+    int rays;
+    int probes;
+    int ownRays;          // 1: there are no fixed rays, the update's own must do
+    int texels;           // of an irradiance map, all
+    float maxDistance;    // metres
+    float longestWindow;  // updates; forget: the windows
+    float longestVisibilityWindow;
+    uint ditherSeed;
+    int forget;  // 1: probe_filter.comp only writes forgottenFilter()
+};
+
 // What a work group of the blends makes.
 KERNEL_CONST int kIrradianceGroupProbes = 16;
 KERNEL_CONST int kIrradianceGroupTexels = 64;
@@ -70,16 +98,20 @@ struct BlendPush {
     float significantChange;  // Listing 3
     float newDistribution;    // Listing 3
     uint ditherSeed;
-    int linear;  // 1: blendLinear
+    int linear;     // 1: blendLinear
+    uvec2 steps;    // GpuProbeStep[probe]: each with its own hysteresis; 0: all with the above
+    uvec2 changes;  // out, where there are steps: TexelChange[block of texels][probe]
 };
 
 // Probe rays (trace_probes.comp) and their shading (shade_probes.comp).
 struct TracePush {
-    uvec2 directions;  // vec3[rays]
-    uvec2 hits;        // Hit[ray][probe]
-    uvec2 rayData;     // RayDatum[probe][ray]
-    uvec2 lighting;    // LightingBlock
-    int rays;
+    uvec2 directions;   // vec3[rays]
+    uvec2 hits;         // Hit[ray][probe]
+    uvec2 rayData;      // RayDatum[probe][ray]
+    uvec2 lighting;     // LightingBlock
+    uvec2 fixedRays;    // FixedRayDatum[probe][ray]
+    int rays;           // that are blended
+    int fixedRayCount;  // that come after them in directions and hits
     int probes;
     int bounces;  // 1: the probes hold light of an earlier update
 };
@@ -160,8 +192,9 @@ KERNELS_END
 #ifdef __cplusplus
 namespace probegi::kernels {
 static_assert(offsetof(SceneConstants, bvh) == 124 && sizeof(SceneConstants) == 156 && sizeof(LightingBlock) == 40);
-static_assert(sizeof(WeightsPush) == 56 && sizeof(BlendPush) == 68 && sizeof(TracePush) == 44);
+static_assert(sizeof(WeightsPush) == 56 && sizeof(BlendPush) == 84 && sizeof(TracePush) == 56);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 28 && sizeof(PicturePush) == 96);
+static_assert(sizeof(FilterPush) == 76 && sizeof(GpuProbeStep) == 80);
 static_assert(sizeof(ToneMapPush) == 28 && sizeof(GpuSurface) == 76 && sizeof(GpuSample) == 100);
 }  // namespace probegi::kernels
 #endif

@@ -6,6 +6,7 @@
 
 #include "core/parallel.h"
 #include "kernels/bounce.h"
+#include "kernels/colour.h"
 #include "kernels/language.h"
 #include "scene/sky.h"
 #include "surface/lighting.h"
@@ -33,22 +34,26 @@ struct TaskBuffers {
     std::vector<glm::vec3> unshadowed;    // for each shadow ray: irradiance where it is not blocked
     std::vector<std::uint8_t> blocked;
     std::vector<FieldQuery> queries;
-    std::vector<glm::vec3> irradiance;  // for each entry of lit
+    std::vector<glm::vec3> irradiance;  // for each entry of lit: from punctual lights
+    std::vector<glm::vec3> bounced;     // for each entry of lit: from the field
 };
 
-void makeRays(const GridDesc& grid, std::span<const glm::vec3> directions, std::size_t begin, std::size_t end,
+// All update rays of a task's probes, then all their fixed rays.
+void makeRays(const GridDesc& grid, const ProbeRayDirections& directions, std::size_t begin, std::size_t end,
               TaskBuffers& b) {
     b.rays.clear();
-    for (std::size_t probe = begin; probe < end; ++probe) {
-        const glm::vec3 origin = probePosition(grid, int(probe));
-        for (const glm::vec3& d : directions) b.rays.push_back({origin, 0.0f, d, 1e30f});
-    }
+    for (const std::span<const glm::vec3> kind : {directions.update, directions.fixed})
+        for (std::size_t probe = begin; probe < end; ++probe) {
+            const glm::vec3 origin = probePosition(grid, int(probe));
+            for (const glm::vec3& d : kind) b.rays.push_back({origin, 0.0f, d, 1e30f});
+        }
     b.hits.resize(b.rays.size());
     b.surfaces.resize(b.rays.size());
 }
 
-// Irradiance from punctual lights, added to b.irradiance.
-void addDirectLight(const Tracer& tracer, const Lighting& lighting, float magnitude, TaskBuffers& b) {
+// Irradiance from punctual lights, in b.irradiance.
+void gatherDirectLight(const Tracer& tracer, const Lighting& lighting, float magnitude, TaskBuffers& b) {
+    b.irradiance.assign(b.lit.size(), glm::vec3(0));
     for (const PlacedLight& light : lighting.lights) {
         b.shadowRays.clear();
         b.shadowed.clear();
@@ -73,37 +78,66 @@ void addDirectLight(const Tracer& tracer, const Lighting& lighting, float magnit
 
 // Irradiance of earlier bounces at the hits: last frame's field (section 2.3).
 void queryBounces(const BounceQuery& bounces, TaskBuffers& b) {
-    b.irradiance.assign(b.lit.size(), glm::vec3(0));
+    b.bounced.assign(b.lit.size(), glm::vec3(0));
     if (!bounces) return;
     b.queries.clear();
     for (const std::uint32_t i : b.lit)
         b.queries.push_back({b.surfaces[i].position, b.surfaces[i].shadingNormal, -b.rays[i].direction});
-    bounces(b.queries, b.irradiance);
+    bounces(b.queries, b.bounced);
 }
 
+// Where the data of a task's rays go.
+struct TaskOutput {
+    std::span<RayDatum> update;
+    std::span<FixedRayDatum> fixed;
+
+    // The radiance that does not depend on other light.
+    void set(std::size_t ray, glm::vec3 radiance, float distance) const {
+        if (ray < update.size())
+            update[ray] = {radiance, distance};
+        else
+            fixed[ray - update.size()] = {kernels::luminance(radiance), 0.0f, distance};
+    }
+    void add(std::size_t ray, glm::vec3 direct, glm::vec3 bounced) const {
+        if (ray < update.size()) {
+            update[ray].radiance += direct + bounced;
+        } else {
+            fixed[ray - update.size()].direct += kernels::luminance(direct);
+            fixed[ray - update.size()].bounced += kernels::luminance(bounced);
+        }
+    }
+};
+
 // Distances and the radiance that does not depend on other light; lists the hits that reflect.
-void resolveHits(const Lighting& lighting, TaskBuffers& b, RayDatum* out) {
+void resolveHits(const Lighting& lighting, TaskBuffers& b, const TaskOutput& out) {
     b.lit.clear();
     for (std::uint32_t i = 0; i < b.rays.size(); ++i) {
         const Hit& hit = b.hits[i];
         if (!hit.valid()) {
-            out[i] = {skyRadiance(lighting.sky, b.rays[i].direction), 1e30f};
+            out.set(i, skyRadiance(lighting.sky, b.rays[i].direction), 1e30f);
         } else if (b.surfaces[i].backface) {
-            out[i] = {glm::vec3(0), -hit.distance};
+            out.set(i, glm::vec3(0), -hit.distance);
         } else {
-            out[i] = {b.surfaces[i].emission, hit.distance};
+            out.set(i, b.surfaces[i].emission, hit.distance);
             b.lit.push_back(i);
         }
     }
 }
 
+TaskOutput outputOf(const ProbeRayDirections& directions, const ProbeRayData& out, std::size_t begin, std::size_t end) {
+    const std::size_t rays = directions.update.size(), fixed = directions.fixed.size();
+    return {out.update.subspan(begin * rays, (end - begin) * rays),
+            out.fixed.subspan(begin * fixed, (end - begin) * fixed)};
+}
+
 }  // namespace
 
-void traceProbes(const Context& context, const GridDesc& grid, std::span<const glm::vec3> directions,
-                 const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces,
-                 std::span<RayDatum> rayData, TraceTimes& times) {
+void traceProbes(const Context& context, const GridDesc& grid, const ProbeRayDirections& directions,
+                 const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces, const ProbeRayData& out,
+                 TraceTimes& times) {
     const float magnitude = sceneMagnitude(tracer.bounds());
-    const std::size_t probesPerTask = std::max<std::size_t>(1, kRaysPerTask / directions.size());
+    const std::size_t probesPerTask =
+        std::max<std::size_t>(1, kRaysPerTask / (directions.update.size() + directions.fixed.size()));
     parallelFor(context, std::size_t(probeCount(grid)), probesPerTask, [&](std::size_t begin, std::size_t end) {
         thread_local TaskBuffers b;
         const auto start = Clock::now();
@@ -112,12 +146,15 @@ void traceProbes(const Context& context, const GridDesc& grid, std::span<const g
         const auto traced = Clock::now();
 
         tracer.surfaces(b.rays, b.hits, b.surfaces);
-        RayDatum* out = rayData.data() + begin * directions.size();
-        resolveHits(lighting, b, out);
+        const TaskOutput task = outputOf(directions, out, begin, end);
+        resolveHits(lighting, b, task);
         queryBounces(bounces, b);
-        addDirectLight(tracer, lighting, magnitude, b);
-        for (std::size_t k = 0; k < b.lit.size(); ++k)
-            out[b.lit[k]].radiance += kernels::bounceRadiance(b.surfaces[b.lit[k]].albedo, b.irradiance[k]);
+        gatherDirectLight(tracer, lighting, magnitude, b);
+        for (std::size_t k = 0; k < b.lit.size(); ++k) {
+            const glm::vec3 albedo = b.surfaces[b.lit[k]].albedo;
+            task.add(b.lit[k], kernels::bounceRadiance(albedo, b.irradiance[k]),
+                     kernels::bounceRadiance(albedo, b.bounced[k]));
+        }
         times.traceNs += nanoseconds(traced - start);
         times.shadeNs += nanoseconds(Clock::now() - traced);
     });

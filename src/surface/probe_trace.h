@@ -17,11 +17,22 @@ struct TraceTimes {
 /// The field of the last update at points: E in W m^-2. Called from several threads at once.
 using BounceQuery = std::function<void(std::span<const FieldQuery>, std::span<glm::vec3>)>;
 
+/// Directions of a probe's rays, the same for all probes.
+struct ProbeRayDirections {
+    std::span<const glm::vec3> update;  ///< of the rays that are blended
+    std::span<const glm::vec3> fixed;   ///< of the rays that measure lag; may be empty
+};
+
+/// What they bring home: [probe][ray] of each kind.
+struct ProbeRayData {
+    std::span<RayDatum> update;
+    std::span<FixedRayDatum> fixed;
+};
+
 /// Traces and shades the rays of all probes on the context's threads, with any tracer: closest hits, surfaces, punctual
-/// lights with shadow rays, emission, sky, and the light of earlier bounces (empty: none). Fills rayData as
-/// [probe][ray].
-void traceProbes(const Context& context, const GridDesc& grid, std::span<const glm::vec3> directions,
-                 const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces,
-                 std::span<RayDatum> rayData, TraceTimes& times);
+/// lights with shadow rays, emission, sky, and the light of earlier bounces (empty: none). Fills `out`.
+void traceProbes(const Context& context, const GridDesc& grid, const ProbeRayDirections& directions,
+                 const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces, const ProbeRayData& out,
+                 TraceTimes& times);
 
 }  // namespace probegi

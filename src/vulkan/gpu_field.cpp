@@ -69,15 +69,17 @@ const GpuLighting& GpuField::uploaded(const Lighting& lighting) const {
     return *m_lighting;
 }
 
-UpdateTimes GpuField::updateFrom(const UpdateFrame& frame, std::span<const RayDatum> rayData) {
+UpdateTimes GpuField::updateFrom(const UpdateFrame& frame, std::span<const RayDatum> rayData,
+                                 std::span<const FixedRayDatum> fixedRays) {
     const auto start = Clock::now();
     m_mirror.reset();
-    m_exchange.begin(rayData.size_bytes(), 16);
-    const VkDeviceAddress address = m_exchange.add(rayData);
+    m_exchange.begin(rayData.size_bytes() + fixedRays.size_bytes(), 16);
+    RayAddresses addresses{.update = m_exchange.add(rayData)};
+    if (!fixedRays.empty()) addresses.fixed = m_exchange.add(fixedRays);
     m_exchange.run(
         [&](const Recorder& recorder) {
             m_profiler->recordReset(recorder.commands());
-            m_passes.recordUpdate(recorder, frame, address, &*m_profiler);
+            m_passes.recordUpdate(recorder, frame, addresses, &*m_profiler);
         },
         0);
     m_updatePasses = orThrow(m_profiler->read());
@@ -95,14 +97,16 @@ UpdateTimes GpuField::updateOnGpu(const UpdateFrame& frame, const GpuTracer& tra
     });
     m_updatePasses = orThrow(m_profiler->read());
     return {sumOf(m_updatePasses, "trace"), sumOf(m_updatePasses, "shade"),
-            sumOf(m_updatePasses, "weights") + sumOf(m_updatePasses, "blend irradiance") +
-                sumOf(m_updatePasses, "blend visibility"),
+            sumOf(m_updatePasses, "weights") + sumOf(m_updatePasses, "windows") +
+                sumOf(m_updatePasses, "blend irradiance") + sumOf(m_updatePasses, "blend visibility") +
+                sumOf(m_updatePasses, "filter"),
             millisecondsSince(start)};
 }
 
-Result<UpdateTimes> GpuField::update(const UpdateFrame& frame, std::span<const RayDatum> rayData) {
+Result<UpdateTimes> GpuField::update(const UpdateFrame& frame, std::span<const RayDatum> rayData,
+                                     std::span<const FixedRayDatum> fixedRays) {
     const std::lock_guard lock(m_mutex);
-    return attempted("updating the field", [&] { return updateFrom(frame, rayData); });
+    return attempted("updating the field", [&] { return updateFrom(frame, rayData, fixedRays); });
 }
 
 Result<UpdateTimes> GpuField::update(const UpdateFrame& frame, const Tracer& tracer, const Lighting& lighting) {
@@ -114,17 +118,19 @@ Result<UpdateTimes> GpuField::update(const UpdateFrame& frame, const Tracer& tra
     return attempted("updating the field", [&] {
         const auto start = Clock::now();
         m_rayData.resize(m_passes.layout().probes * m_passes.layout().rays);
+        m_fixedRays.resize(m_passes.layout().probes * frame.fixedDirections.size());
         BounceQuery bounces;
         if (frame.bounces)
             bounces = [&](std::span<const FieldQuery> queries, std::span<glm::vec3> out) {
                 orThrow(irradiance(frame.desc, queries, out));
             };
         TraceTimes sums;
-        traceProbes(m_context, frame.desc.grid, frame.directions, tracer, lighting, bounces, m_rayData, sums);
+        traceProbes(m_context, frame.desc.grid, {frame.directions, frame.fixedDirections}, tracer, lighting, bounces,
+                    {m_rayData, m_fixedRays}, sums);
         const double traced = millisecondsSince(start);
         const double sum = std::max(1.0, double(sums.traceNs + sums.shadeNs));
         const std::lock_guard lock(m_mutex);
-        UpdateTimes times = updateFrom(frame, m_rayData);
+        UpdateTimes times = updateFrom(frame, m_rayData, m_fixedRays);
         times.trace = traced * double(sums.traceNs) / sum;
         times.shade = traced * double(sums.shadeNs) / sum;
         times.total = millisecondsSince(start);

@@ -16,7 +16,8 @@ public:
     /// The desc must be valid. Throws.
     GpuField(const Context& context, const Device& device, const FieldDesc& desc);
 
-    Result<UpdateTimes> update(const UpdateFrame& frame, std::span<const RayDatum> rayData) override;
+    Result<UpdateTimes> update(const UpdateFrame& frame, std::span<const RayDatum> rayData,
+                               std::span<const FixedRayDatum> fixedRays) override;
     Result<UpdateTimes> update(const UpdateFrame& frame, const Tracer& tracer, const Lighting& lighting) override;
     Result<void> irradiance(const FieldDesc& desc, std::span<const FieldQuery> queries,
                             std::span<glm::vec3> out) const override;
@@ -37,7 +38,8 @@ private:
     /// The lighting in GPU memory, uploaded again only where it changed. Throws.
     const GpuLighting& uploaded(const Lighting& lighting) const;
     UpdateTimes updateOnGpu(const UpdateFrame& frame, const GpuTracer& tracer, const Lighting& lighting);
-    UpdateTimes updateFrom(const UpdateFrame& frame, std::span<const RayDatum> rayData);
+    UpdateTimes updateFrom(const UpdateFrame& frame, std::span<const RayDatum> rayData,
+                           std::span<const FixedRayDatum> fixedRays);
     /// guarded(), for passes over the volume.
     template <class Body>
     auto attempted(const char* doing, const Body& body) const;
@@ -54,7 +56,8 @@ private:
     mutable std::optional<VolumeMirror> m_mirror;  // empty: out of date
     mutable std::optional<Lighting> m_lightingSource;
     mutable std::optional<GpuLighting> m_lighting;
-    std::vector<RayDatum> m_rayData;  // of rays that another backend's tracer traced
+    std::vector<RayDatum> m_rayData;         // of rays that another backend's tracer traced
+    std::vector<FixedRayDatum> m_fixedRays;  // the same
     std::vector<PassTime> m_updatePasses;
     mutable std::vector<PassTime> m_queryPasses;
 };

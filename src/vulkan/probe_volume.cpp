@@ -24,6 +24,9 @@ FieldMemory ProbeVolume::memory() const noexcept {
 std::span<const glm::vec3> ProbeVolume::rayDirections() const noexcept {
     return m_impl->books.rayDirections();
 }
+std::span<const glm::vec3> ProbeVolume::fixedRayDirections() const noexcept {
+    return m_impl->books.fixedRayDirections();
+}
 void ProbeVolume::notify(FieldEvent event) noexcept {
     m_impl->books.notify(event);
 }
@@ -46,10 +49,17 @@ Result<void> ProbeVolume::recordUpdate(VkCommandBuffer commands, const GpuScene&
 }
 
 Result<void> ProbeVolume::recordUpdate(VkCommandBuffer commands, VkDeviceAddress rayData, Profiler* profiler) {
+    return recordUpdate(commands, rayData, 0, profiler);
+}
+
+Result<void> ProbeVolume::recordUpdate(VkCommandBuffer commands, VkDeviceAddress rayData, VkDeviceAddress fixedRays,
+                                       Profiler* profiler) {
     return m_impl->recorded("recording an update", [&] {
-        m_impl->passes.recordUpdate({m_impl->passes.device().impl(), commands}, m_impl->books.comingUpdate(), rayData,
+        FrameBooks& books = m_impl->books;
+        const UpdateFrame frame = fixedRays ? books.comingUpdate() : books.comingUpdateWithoutFixedRays();
+        m_impl->passes.recordUpdate({m_impl->passes.device().impl(), commands}, frame, RayAddresses{rayData, fixedRays},
                                     profiler);
-        m_impl->books.advance();
+        books.advance();
     });
 }
 

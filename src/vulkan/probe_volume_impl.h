@@ -4,11 +4,18 @@
 
 #include "field/frame_books.h"
 #include "field/layout.h"
+#include "kernels/gpu_passes.h"
 #include "kernels/gpu_volume.h"
 #include "vulkan/errors.h"
 #include "vulkan/recorder.h"
 
 namespace probegi::vulkan {
+
+/// Where an update's ray data lie.
+struct RayAddresses {
+    VkDeviceAddress update = 0;  ///< RayDatum[probe][ray]
+    VkDeviceAddress fixed = 0;   ///< FixedRayDatum[probe][ray]; 0 where the frame has no fixed rays
+};
 
 /// Probes in GPU memory and the passes over them. What an update needs to know of the frame comes from outside: from
 /// ProbeVolume's books for an engine, from Field's for a FieldBackend. Throws Failure and what Vulkan-Hpp throws.
@@ -21,8 +28,8 @@ public:
     /// Traces and shades the rays of all probes into rayData(), then blends it.
     void recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
                       const GpuLighting& lighting, Profiler* profiler);
-    /// Blends the ray data at an address.
-    void recordUpdate(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData, Profiler* profiler);
+    /// Blends the ray data at addresses.
+    void recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& rays, Profiler* profiler);
     void recordQuery(const Recorder& recorder, const FieldDesc& desc, VkDeviceAddress queries,
                      VkDeviceAddress irradiance, std::uint32_t count, Profiler* profiler);
     /// Brings the constants up to date with the desc's guard, for whoever reads set() in passes of its own.
@@ -49,19 +56,27 @@ private:
     void recordWeights(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler);
     void recordTrace(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
                      const GpuLighting& lighting, Profiler* profiler);
+    /// From ray data on.
+    void recordRest(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& rays, Profiler* profiler);
+    void recordWindows(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& rays,
+                       Profiler* profiler);
+    void recordFilter(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& rays, Profiler* profiler);
+    kernels::FilterPush filterPush(const UpdateFrame& frame, const RayAddresses& rays) const;
     void recordBlend(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData, Profiler* profiler);
 
     Device m_device;
     FieldDesc m_desc;
     FieldLayout m_layout;
     Image m_irradiance, m_visibility;
-    Buffer m_constants;          // GpuVolume
-    Buffer m_states;             // the count of fallbacks, then each probe's share of backfaces
-    Buffer m_directions;         // vec3 a ray
-    Buffer m_irradianceWeights;  // float[ray][texel]
-    Buffer m_visibilityCounts;   // uint[texel]
-    Buffer m_visibilityWeights;  // GpuRayWeight[entry][texel]
-    Buffer m_hits, m_rayData;    // made by the first traced update
+    Buffer m_constants;                     // GpuVolume
+    Buffer m_states;                        // the count of fallbacks, then each probe's share of backfaces
+    Buffer m_filters;                       // PackedProbeFilter a probe
+    Buffer m_steps, m_changes;              // what the passes of an update hand to each other
+    Buffer m_directions;                    // vec3 a ray: those of the update, then the fixed ones
+    Buffer m_irradianceWeights;             // float[ray][texel]
+    Buffer m_visibilityCounts;              // uint[texel]
+    Buffer m_visibilityWeights;             // GpuRayWeight[entry][texel]
+    Buffer m_hits, m_rayData, m_fixedRays;  // made by the first traced update
     vk::raii::DescriptorPool m_pool{nullptr};
     vk::raii::DescriptorSets m_sets{nullptr};
     std::optional<LeakGuard> m_recordedGuard;  // what the constants hold once all that was recorded has run

@@ -51,12 +51,13 @@ public:
     void fill(const Buffer& buffer, std::uint32_t value) const {
         m_commands.fillBuffer(buffer.handle(), 0, VK_WHOLE_SIZE, value, dispatcher());
     }
-    /// Writes bytes from the command buffer itself, in pieces that vkCmdUpdateBuffer takes. A multiple of four bytes.
-    void write(const Buffer& buffer, std::span<const std::byte> bytes) const {
+    /// Writes bytes from the command buffer itself, in pieces that vkCmdUpdateBuffer takes, `offset` bytes into the
+    /// buffer. Multiples of four bytes.
+    void write(const Buffer& buffer, std::span<const std::byte> bytes, std::size_t offset = 0) const {
         constexpr std::size_t kPiece = 65536;
         for (std::size_t at = 0; at < bytes.size(); at += kPiece)
-            m_commands.updateBuffer(buffer.handle(), at, std::min(kPiece, bytes.size() - at), bytes.data() + at,
-                                    dispatcher());
+            m_commands.updateBuffer(buffer.handle(), offset + at, std::min(kPiece, bytes.size() - at),
+                                    bytes.data() + at, dispatcher());
     }
 
     /// Everything before is done and visible to everything after, whatever the stage. For the ends of updates and

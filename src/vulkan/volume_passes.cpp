@@ -67,7 +67,15 @@ VolumePasses::VolumePasses(const Device& device, const FieldDesc& desc)
       m_states(device.impl(), "probe states", sizeof(std::uint32_t) + m_layout.probes * sizeof(float),
                vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst |
                    vk::BufferUsageFlagBits::eTransferSrc),
-      m_directions(device.impl(), "ray directions", m_layout.rays * sizeof(glm::vec3), kAddressed),
+      m_filters(device.impl(), "temporal filters", m_layout.probes * sizeof(kernels::PackedProbeFilter),
+                kAddressed | vk::BufferUsageFlagBits::eTransferDst),
+      m_steps(device.impl(), "temporal steps", m_layout.probes * sizeof(kernels::GpuProbeStep), kAddressed),
+      m_changes(device.impl(), "texel changes",
+                m_layout.probes * groups(m_layout.irradianceTexels, kernels::kIrradianceGroupTexels) *
+                    sizeof(kernels::TexelChange),
+                kAddressed),
+      m_directions(device.impl(), "ray directions", (m_layout.rays + std::size_t(desc.fixedRays)) * sizeof(glm::vec3),
+                   kAddressed),
       m_irradianceWeights(device.impl(), "irradiance weights",
                           m_layout.rays * m_layout.irradianceTexels * sizeof(float), kAddressed),
       m_visibilityCounts(device.impl(), "visibility weight counts", m_layout.visibilityTexels * sizeof(std::uint32_t),
@@ -131,17 +139,21 @@ void VolumePasses::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBi
 }
 
 FieldMemory VolumePasses::memory() const noexcept {
-    return {m_irradiance.bytes(), m_visibility.bytes(), m_states.bytes() + m_constants.bytes() + m_directions.bytes(),
+    return {m_irradiance.bytes(), m_visibility.bytes(),
+            m_states.bytes() + m_filters.bytes() + m_constants.bytes() + m_directions.bytes(),
             m_irradianceWeights.bytes() + m_visibilityCounts.bytes() + m_visibilityWeights.bytes() + m_hits.bytes() +
-                m_rayData.bytes()};
+                m_rayData.bytes() + m_fixedRays.bytes() + m_steps.bytes() + m_changes.bytes()};
 }
 
 void VolumePasses::makeRayBuffers() {
     if (m_rayData) return;
-    const std::size_t rays = m_layout.probes * m_layout.rays;
-    Buffer hits(m_device.impl(), "probe ray hits", rays * sizeof(Hit), kAddressed);
+    const std::size_t rays = m_layout.probes * m_layout.rays, fixed = m_layout.probes * std::size_t(m_desc.fixedRays);
+    Buffer hits(m_device.impl(), "probe ray hits", (rays + fixed) * sizeof(Hit), kAddressed);
+    Buffer fixedRays(m_device.impl(), "fixed ray data", std::max(fixed, std::size_t(1)) * sizeof(FixedRayDatum),
+                     kAddressed);
     m_rayData = Buffer(m_device.impl(), "probe ray data", rays * sizeof(RayDatum), kAddressed);
     m_hits = std::move(hits);
+    m_fixedRays = std::move(fixedRays);
 }
 
 void VolumePasses::recordClear(const Recorder& recorder) {
@@ -161,6 +173,7 @@ void VolumePasses::recordClear(const Recorder& recorder) {
         recorder.commands().clearColorImage(image->handle(), vk::ImageLayout::eGeneral, black, all,
                                             recorder.dispatcher());
     recorder.fill(m_states, 0);
+    recorder.fill(m_filters, 0);
     m_recordedGuard = m_desc.guard;
     recorder.write(m_constants, bytesOf(constants(m_desc.guard)));
     recorder.orderAll();
@@ -191,14 +204,16 @@ void VolumePasses::recordWeights(const Recorder& recorder, const UpdateFrame& fr
 
 void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
                                const GpuLighting& lighting, Profiler* profiler) {
-    const std::uint64_t rays = std::uint64_t(m_layout.probes) * m_layout.rays;
+    const std::uint64_t rays = std::uint64_t(m_layout.probes) * (m_layout.rays + frame.fixedDirections.size());
     const std::string tracer = scene.impl().shaderSuffix();
     recorder.bindScene(scene.impl().set());
     recorder.push(kernels::TracePush{.directions = packAddress(m_directions.address()),
                                      .hits = packAddress(m_hits.address()),
                                      .rayData = packAddress(m_rayData.address()),
                                      .lighting = packAddress(lighting.impl().address()),
+                                     .fixedRays = packAddress(m_fixedRays.address()),
                                      .rays = int(m_layout.rays),
+                                     .fixedRayCount = int(frame.fixedDirections.size()),
                                      .probes = int(m_layout.probes),
                                      .bounces = frame.bounces ? 1 : 0});
     {
@@ -227,7 +242,9 @@ void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& fram
                                      .significantChange = frame.desc.significantChange,
                                      .newDistribution = frame.desc.newDistribution,
                                      .ditherSeed = frame.ditherSeed,
-                                     .linear = frame.linear ? 1 : 0});
+                                     .linear = frame.linear ? 1 : 0,
+                                     .steps = frame.windows ? packAddress(m_steps.address()) : kernels::uvec2(0),
+                                     .changes = packAddress(m_changes.address())});
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "blend irradiance");
         recorder.dispatchOver("blend_irradiance", groups(m_layout.probes, kernels::kIrradianceGroupProbes),
@@ -240,15 +257,53 @@ void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& fram
     }
 }
 
+void VolumePasses::recordWindows(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& rays,
+                                 Profiler* profiler) {
+    if (!frame.windows) return;
+    const PassScope scope(recorder, m_device.impl(), profiler, "windows");
+    recorder.push(filterPush(frame, rays));
+    recorder.dispatchOver("probe_lag", m_layout.probes);
+    recorder.computeToCompute();
+    recorder.dispatchOver("probe_windows", m_layout.probes);
+    recorder.computeToCompute();
+}
+
+void VolumePasses::recordFilter(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& rays,
+                                Profiler* profiler) {
+    const PassScope scope(recorder, m_device.impl(), profiler, "filter");
+    recorder.computeToCompute();
+    recorder.push(filterPush(frame, rays));
+    recorder.dispatchOver("probe_filter", m_layout.probes);
+}
+
+kernels::FilterPush VolumePasses::filterPush(const UpdateFrame& frame, const RayAddresses& rays) const {
+    const bool own = frame.fixedDirections.empty();
+    return {.steps = packAddress(m_steps.address()),
+            .filters = packAddress(m_filters.address()),
+            .changes = packAddress(m_changes.address()),
+            .rayData = packAddress(own ? rays.update : rays.fixed),
+            .directions = packAddress(m_directions.address() + m_layout.rays * sizeof(glm::vec3)),
+            .rays = int(own ? m_layout.rays : frame.fixedDirections.size()),
+            .probes = int(m_layout.probes),
+            .ownRays = own ? 1 : 0,
+            .texels = int(m_layout.irradianceTexels),
+            .maxDistance = m_layout.maxDistance,
+            .longestWindow = frame.windows ? frame.longestWindow : 1.0f / (1.0f - frame.hysteresis.irradiance),
+            .longestVisibilityWindow = frame.longestVisibilityWindow,
+            .ditherSeed = frame.ditherSeed,
+            .forget = frame.windows ? 0 : 1};
+}
+
 void VolumePasses::beginUpdate(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler) {
     // Whatever can fail comes first: an update is recorded whole or not at all.
     PipelineStore& pipelines = *m_device.impl().pipelines;
-    pipelines.get("blend_weights");
+    for (const char* shader : {"blend_weights", "probe_lag", "probe_windows", "probe_filter"}) pipelines.get(shader);
     pipelines.get("blend_visibility");
     pipelines.get("blend_irradiance", irradianceConstants(frame.desc));
     recordGuard(recorder, frame.desc);
     recorder.orderAll();
     recorder.write(m_directions, std::as_bytes(frame.directions));
+    recorder.write(m_directions, std::as_bytes(frame.fixedDirections), frame.directions.size_bytes());
     recorder.transferToCompute();
     recorder.bindVolume(set());
     recordWeights(recorder, frame, profiler);
@@ -261,15 +316,21 @@ void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& fra
         m_device.impl().pipelines->get(shader + scene.impl().shaderSuffix());
     beginUpdate(recorder, frame, profiler);
     recordTrace(recorder, frame, scene, lighting, profiler);
-    recordBlend(recorder, frame, m_rayData.address(), profiler);
-    recorder.orderAll();
+    recordRest(recorder, frame, {m_rayData.address(), m_fixedRays.address()}, profiler);
 }
 
-void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData,
+void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& rays,
                                 Profiler* profiler) {
     beginUpdate(recorder, frame, profiler);
     recorder.computeToCompute();
-    recordBlend(recorder, frame, rayData, profiler);
+    recordRest(recorder, frame, rays, profiler);
+}
+
+void VolumePasses::recordRest(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& rays,
+                              Profiler* profiler) {
+    recordWindows(recorder, frame, rays, profiler);
+    recordBlend(recorder, frame, rays.update, profiler);
+    recordFilter(recorder, frame, rays, profiler);
     recorder.orderAll();
 }
 

@@ -39,6 +39,7 @@ TEST(FieldLevels, brighteningAndDarkeningBothArrive) {
         for (const auto& [from, to] :
              {std::pair{1.0f, 1.1f}, {1.1f, 1.0f}, {1e-3f, 1e3f}, {1e3f, 1e-3f}, {5.0f, 4.9f}}) {
             FieldDesc desc;
+            desc.rules = FieldRules::paper;
             desc.grid = {{0, 0, 0}, glm::vec3(1), {3, 3, 3}};
             desc.hysteresis = hysteresis;
             desc.significantChange = desc.newDistribution = 0;

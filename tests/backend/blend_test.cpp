@@ -82,14 +82,33 @@ TEST_P(BackendBlend, equalsTheDirectSum) {
 
 // Several updates, so that hysteresis, its thresholds and the dither of every frame count.
 TEST_P(BackendBlend, sameRaysInSameAtlasesOut) {
-    for (const BackfaceRule rule : {BackfaceRule::zeroSample, BackfaceRule::excluded}) {
-        Field field = makeField(descWith(rule)), reference = made(kCpu.makeField(context, descWith(rule)));
-        for (std::uint32_t frame = 0; frame < 4; ++frame) {
-            const auto data = randomData(field.desc(), 20 + frame);
-            ASSERT_TRUE(field.update(data));
-            ASSERT_TRUE(reference.update(data));
-            for (std::size_t ray = 0; ray < 100; ++ray)
-                ASSERT_EQ(field.rayDirections()[ray], reference.rayDirections()[ray]);
+    for (const FieldRules rules : {FieldRules::measured, FieldRules::paper})
+        for (const BackfaceRule rule : {BackfaceRule::zeroSample, BackfaceRule::excluded}) {
+            FieldDesc desc = descWith(rule);
+            desc.rules = rules;
+            Field field = makeField(desc), reference = made(kCpu.makeField(context, desc));
+            for (std::uint32_t frame = 0; frame < 4; ++frame) {
+                const auto data = randomData(field.desc(), 20 + frame);
+                ASSERT_TRUE(field.update(data));
+                ASSERT_TRUE(reference.update(data));
+                for (std::size_t ray = 0; ray < 100; ++ray)
+                    ASSERT_EQ(field.rayDirections()[ray], reference.rayDirections()[ray]);
+            }
+            expectSameAtlases(field, reference);
+        }
+}
+
+// With fixed rays: their light jumps, drifts and stays, so that windows shrink and grow.
+TEST_P(BackendBlend, sameAtlasesWithFixedRays) {
+    for (const int fixedRays : {32, 7}) {
+        FieldDesc desc = descWith(BackfaceRule::zeroSample);
+        desc.fixedRays = fixedRays;
+        Field field = makeField(desc), reference = made(kCpu.makeField(context, desc));
+        for (std::uint32_t frame = 0; frame < 8; ++frame) {
+            const auto data = randomData(desc, 60 + frame);
+            const auto fixedData = randomFixedData(desc, 3, frame < 4 ? 1.0f : 0.5f + 0.01f * float(frame));
+            ASSERT_TRUE(field.update(data, fixedData));
+            ASSERT_TRUE(reference.update(data, fixedData));
         }
         expectSameAtlases(field, reference);
     }
@@ -188,6 +207,7 @@ TEST_P(BackendBlend, oneBrightDirectionGivesAClampedCosine) {
 
 TEST_P(BackendBlend, hysteresisKeepsItsShareOfTheOldValue) {
     FieldDesc desc = descWith(BackfaceRule::zeroSample);
+    desc.rules = FieldRules::paper;
     desc.significantChange = desc.newDistribution = 0;
     desc.hysteresis = 0.75f;
     desc.visibilityHysteresis = 0.5f;

@@ -20,6 +20,16 @@ std::vector<RayDatum> constantData(const FieldDesc& desc, glm::vec3 radiance, fl
                                  {radiance, distance});
 }
 
+std::vector<FixedRayDatum> randomFixedData(const FieldDesc& desc, std::uint32_t seed, float scale) {
+    std::vector<FixedRayDatum> data;
+    std::uint32_t state = seed;
+    for (int i = 0; i < probeCount(desc.grid) * desc.fixedRays; ++i) {
+        const float light = std::exp(4 * kernels::nextRandom(state) - 2);
+        data.push_back({scale * light, 0.3f * scale * light, 3.0f * kernels::nextRandom(state)});
+    }
+    return data;
+}
+
 std::vector<RayDatum> randomData(const FieldDesc& desc, std::uint32_t seed) {
     std::vector<RayDatum> data = constantData(desc, glm::vec3(0.0f), 0.0f);
     std::uint32_t state = seed;

@@ -42,6 +42,8 @@ FieldDesc smallDesc();
 std::vector<RayDatum> constantData(const FieldDesc& desc, glm::vec3 radiance, float distance);
 /// Radiance over two decades, distances up to 3 m, every seventh ray on a backface.
 std::vector<RayDatum> randomData(const FieldDesc& desc, std::uint32_t seed);
+/// Light for fixed rays, `scale` times what it is for the same seed and scale 1.
+std::vector<FixedRayDatum> randomFixedData(const FieldDesc& desc, std::uint32_t seed, float scale);
 /// The grid moved a little: from a probe in the very plane of a wall, rounding decides which of its rays hit the wall.
 inline GridDesc offTheWalls(GridDesc grid) {
     grid.origin += grid.spacing * glm::vec3(0.037f, 0.053f, 0.041f);

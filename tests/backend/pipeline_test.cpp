@@ -114,6 +114,7 @@ TEST_P(BackendPipeline, furnaceHasItsClosedFormAtEveryLevel) {
 TEST_P(BackendPipeline, brighteningAndDarkeningBothArrive) {
     for (const auto& [from, to] : {std::pair{1.0f, 1.1f}, {1.1f, 1.0f}, {1e-3f, 1e3f}, {1e3f, 1e-3f}, {5.0f, 4.9f}}) {
         FieldDesc desc;
+        desc.rules = FieldRules::paper;
         desc.grid = {{0, 0, 0}, glm::vec3(1), {2, 2, 2}};
         desc.raysPerProbe = 32;
         desc.hysteresis = 0.97f;
@@ -193,6 +194,7 @@ TEST_P(BackendPipeline, convergeCanBeCancelled) {
 // A sudden change is followed faster when the field is told: irradiance and, for objects, distances.
 TEST_P(BackendPipeline, eventsSpeedUpTheChange) {
     FieldDesc desc;
+    desc.rules = FieldRules::paper;  // the others see the change by themselves
     desc.grid = {{0, 0, 0}, glm::vec3(1), {3, 3, 3}};
     desc.raysPerProbe = 32;
     desc.significantChange = desc.newDistribution = 0;

@@ -4,6 +4,7 @@
 // a thread holds a block of 4 texels x 4 probes in registers, so that seven loads of 16 floats feed 48 multiply-adds.
 // (A GPU's shared memory gives a register a clock, the same for all threads or not: a thread for a texel of eight
 // probes would read 25 floats for 24 multiply-adds.)
+#include "filter.glsl"
 #include "ray_data.glsl"
 #include "volume.glsl"
 
@@ -27,6 +28,7 @@ const int kFours = kProbes / 4;
 // Of four probes: red, green, blue, and 1 where the ray counts.
 shared vec4 radiance[kFours][4][kRays];
 shared float weights[kRays][kTexels];
+shared TexelChange changes[kProbes][kTexelThreads];  // of a probe's texels in a thread
 shared uvec4 counts[kFours][kRays];  // of hits and, 16 bits higher, of backfaces, that a thread has seen while loading
 
 // The group's rays from `first` on, a ray of four probes a thread. What is beyond the last ray or probe counts as
@@ -58,13 +60,18 @@ void loadWeights(int firstTexel, int texels, int firstRay) {
     }
 }
 
-void store(int probe, int texel, vec3 newMean) {
+void store(int probe, int texel, vec3 newMean, inout TexelChange change) {
     const int size = probegiVolume.irradianceTexels;
     const ivec3 cell = gpuProbeCell(probe, probegiVolume.counts);
     const ivec2 tile = gpuTileOrigin(cell, size);
     const ivec2 at = ivec2(texel % size, texel / size);
     const vec3 old = imageLoad(irradianceImage, ivec3(tile + at, cell.z)).rgb;
-    const BlendRule rule = BlendRule(push.irradianceHysteresis, push.significantChange, push.newDistribution);
+    float kept = push.irradianceHysteresis;
+    if (push.steps != uvec2(0u)) {
+        kept = ProbeSteps(push.steps).at[probe].irradianceKept;
+        addTexelChange(change, old, newMean);
+    }
+    const BlendRule rule = BlendRule(kept, push.significantChange, push.newDistribution);
     const uvec3 bits =
         blendIrradianceTexel(old, newMean, rule, push.linear != 0, push.ditherSeed, uint(probe * size * size + texel));
     // Exact in the image's halves: they were rounded already, with the dither.
@@ -80,7 +87,15 @@ void storeBackfaceShare(int local, int probe) {
     uint sum = 0;
     for (int i = 0; i < kRays; ++i) sum += counts[local / 4][i][local % 4];
     const float share = backfaceShareOf(int(sum >> 16u), int(sum & 0xffffu));
-    probegiStates.backfaceShare[probe] = mix(share, probegiStates.backfaceShare[probe], push.visibilityHysteresis);
+    const float kept =
+        push.steps == uvec2(0u) ? push.visibilityHysteresis : ProbeSteps(push.steps).at[probe].visibilityKept;
+    probegiStates.backfaceShare[probe] = mix(share, probegiStates.backfaceShare[probe], kept);
+}
+
+void storeChange(int local, int probe) {
+    TexelChange sum = noChange();
+    for (int i = 0; i < kTexelThreads; ++i) joinChanges(sum, changes[local][i]);
+    TexelChanges(push.changes).at[int(gl_WorkGroupID.y) * push.probes + probe] = sum;
 }
 
 void main() {
@@ -111,8 +126,9 @@ void main() {
                 for (int t = 0; t < kBlock; ++t) sum[t][3] += w[t] * radiance[myFour][3][k];
         }
     }
-    for (int t = 0; t < kBlock; ++t) {
-        for (int p = 0; p < 4; ++p) {
+    for (int p = 0; p < 4; ++p) {
+        TexelChange change = noChange();
+        for (int t = 0; t < kBlock; ++t) {
             const int texel = firstTexel + myTexel + kTexelThreads * t;
             const int probe = firstProbe + 4 * myFour + p;
             if (texel >= texels || probe >= push.probes) continue;
@@ -120,11 +136,14 @@ void main() {
             store(probe, texel,
                   kExcludeBackfaces == 0 ? mean.xyz
                                          : vec3(withoutBackfaces(mean.x, mean.w), withoutBackfaces(mean.y, mean.w),
-                                                withoutBackfaces(mean.z, mean.w)));
+                                                withoutBackfaces(mean.z, mean.w)),
+                  change);
         }
+        changes[4 * myFour + p][myTexel] = change;
     }
     counts[thread / kRays][thread % kRays] = seen;
     barrier();
-    if (gl_WorkGroupID.y == 0 && thread < kProbes && firstProbe + thread < push.probes)
-        storeBackfaceShare(thread, firstProbe + thread);
+    if (thread >= kProbes || firstProbe + thread >= push.probes) return;
+    if (gl_WorkGroupID.y == 0) storeBackfaceShare(thread, firstProbe + thread);
+    if (push.steps != uvec2(0u)) storeChange(thread, firstProbe + thread);
 }

@@ -1,6 +1,7 @@
 // New distance moments of all probes from the frame's sparse weights, then hysteresis, dithered storage and the border
 // (DDGI paper, section 2.3). A work group makes all texels of kProbes probes. Their distances are read once, into
 // shared memory, side by side: a texel's entry is one load of them for all probes.
+#include "filter.glsl"
 #include "ray_data.glsl"
 #include "volume.glsl"
 
@@ -26,8 +27,10 @@ void store(int probe, int texel, vec2 newMoments) {
     const ivec2 tile = gpuTileOrigin(cell, size);
     const ivec2 at = ivec2(texel % size, texel / size);
     const vec2 old = imageLoad(visibilityImage, ivec3(tile + at, cell.z)).rg;
-    const vec4 stored = vec4(unpackMoments(blendVisibilityTexel(packMoments(old), newMoments, push.visibilityHysteresis,
-                                                                push.ditherSeed, uint(probe * size * size + texel))),
+    const float kept =
+        push.steps == uvec2(0u) ? push.visibilityHysteresis : ProbeSteps(push.steps).at[probe].visibilityKept;
+    const vec4 stored = vec4(unpackMoments(blendVisibilityTexel(packMoments(old), newMoments, kept, push.ditherSeed,
+                                                                uint(probe * size * size + texel))),
                              0.0, 0.0);
     imageStore(visibilityImage, ivec3(tile + at, cell.z), stored);
     for (int copy = 0; copy < 3; ++copy) {

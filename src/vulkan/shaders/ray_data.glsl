@@ -12,4 +12,14 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RayData {
     RayDatum at[];
 };
 
+// probegi::FixedRayDatum in a buffer.
+struct FixedRayDatum {
+    float direct;
+    float bounced;
+    float distance;
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FixedRays {
+    FixedRayDatum at[];
+};
+
 #endif

@@ -7,14 +7,21 @@
 #include "volume.glsl"
 
 #include "kernels/bounce.h"
+#include "kernels/colour.h"
 
 layout(push_constant, scalar) uniform Push {
     TracePush push;
 };
 
-vec3 lambertIrradiance(Surface surface, vec3 toViewer) {
+// What a ray brings home: the light of lights, emission and sky, and the light by way of the field.
+struct RayLight {
+    vec3 direct;
+    vec3 bounced;
+    float distance;  // as RayDatum's
+};
+
+vec3 punctualIrradiance(Surface surface) {
     vec3 e = vec3(0.0);
-    if (push.bounces != 0) e = probegiIrradiance(surface.position, surface.shadingNormal, toViewer);
     for (int i = 0; i < PROBEGI_SCENE.lightCount; ++i) {
         const LightSample light = lightSampleAt(i, surface.position);
         e += visibleLight(surface, light) * max(dot(light.toLight, surface.shadingNormal), 0.0);
@@ -22,22 +29,29 @@ vec3 lambertIrradiance(Surface surface, vec3 toViewer) {
     return e;
 }
 
-RayDatum shade(Ray ray, Hit hit) {
-    if (hit.primitive < 0) return RayDatum(skyRadianceAt(ray.direction), kNoHitDistance);
+RayLight shade(Ray ray, Hit hit) {
+    if (hit.primitive < 0) return RayLight(skyRadianceAt(ray.direction), vec3(0.0), kNoHitDistance);
     const Surface surface = surfaceAt(ray, hit);
-    if (surface.backface) return RayDatum(vec3(0.0), -hit.distance);
-    const vec3 e = lambertIrradiance(surface, -ray.direction);
-    return RayDatum(surface.emission + bounceRadiance(surface.albedo, e), hit.distance);
+    if (surface.backface) return RayLight(vec3(0.0), vec3(0.0), -hit.distance);
+    vec3 bounced = vec3(0.0);
+    if (push.bounces != 0) bounced = probegiIrradiance(surface.position, surface.shadingNormal, -ray.direction);
+    return RayLight(surface.emission + bounceRadiance(surface.albedo, punctualIrradiance(surface)),
+                    bounceRadiance(surface.albedo, bounced), hit.distance);
 }
 
 void main() {
     const uint index = globalIndex();
-    if (index >= uint(push.probes) * uint(push.rays)) return;
+    if (index >= uint(push.probes) * uint(push.rays + push.fixedRayCount)) return;
     const int probe = int(index % uint(push.probes));
     const int rayIndex = int(index / uint(push.probes));
     useLighting(push.lighting);
     const vec3 origin =
         probePlace(gpuProbeCell(probe, probegiVolume.counts), probegiVolume.origin, probegiVolume.spacing);
     const Ray ray = Ray(origin, 0.0, Vec3s(push.directions).at[rayIndex], kNoHitDistance);
-    RayData(push.rayData).at[probe * push.rays + rayIndex] = shade(ray, Hits(push.hits).at[index]);
+    const RayLight light = shade(ray, Hits(push.hits).at[index]);
+    if (rayIndex < push.rays)
+        RayData(push.rayData).at[probe * push.rays + rayIndex] = RayDatum(light.direct + light.bounced, light.distance);
+    else
+        FixedRays(push.fixedRays).at[probe * push.fixedRayCount + rayIndex - push.rays] =
+            FixedRayDatum(luminance(light.direct), luminance(light.bounced), light.distance);
 }

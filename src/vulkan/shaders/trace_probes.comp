@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push {
 
 void main() {
     const uint index = globalIndex();
-    if (index >= uint(push.probes) * uint(push.rays)) return;
+    if (index >= uint(push.probes) * uint(push.rays + push.fixedRayCount)) return;
     const int probe = int(index % uint(push.probes));
     const int ray = int(index / uint(push.probes));
     useSceneOnly();

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "probegi/field.h"
+
+namespace probegi::accuracy {
+
+/// How many updates a field needs to follow one change of the light.
+struct Reaction {
+    std::string change;  ///< "x0.1", "sun jump", ...
+    int updates = 0;  ///< after which the mean irradiance stays within a tenth of the change around its goal; -1: never
+};
+
+/// A scene in which the light changes: how `update()` follows, and how still it is where nothing changes.
+struct MotionResult {
+    std::string scene;
+    int rays = 0;          ///< a probe and update
+    double settled = 0;    ///< mean irradiance after kSettledUpdates updates over that of `converge`
+    double flicker = 0;    ///< temporal standard deviation over mean at surface points: mean over the points
+    double flicker95 = 0;  ///< the same: 95th percentile
+    std::vector<Reaction> reactions;
+};
+
+inline constexpr int kSettledUpdates = 300;
+
+/// Measures a scene. `reactions`: whether the light is changed as well. All lights act as they do in the scene's rest
+/// pose. Errors: those of Field.
+Result<MotionResult> measureMotion(const Context& context, const std::string& name, const Scene& scene,
+                                   const GridDesc& grid, const FieldDesc& desc, bool reactions);
+
+}  // namespace probegi::accuracy

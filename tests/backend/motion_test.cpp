@@ -1,0 +1,122 @@
+// The temporal filter (kernels/temporal_filter.h): light in motion is followed, light that stands still is still.
+#include "backend/every_backend.h"
+
+#include <cmath>
+
+#include "probegi/builtin_scenes.h"
+
+namespace probegi::test {
+namespace {
+
+constexpr float kPi = 3.14159265f;
+
+class BackendMotion : public EveryBackend {};
+PROBEGI_ON_EVERY_BACKEND(BackendMotion);
+
+FieldDesc motionDesc() {
+    FieldDesc desc;
+    desc.grid = {{0, 0, 0}, glm::vec3(1), {3, 3, 3}};
+    return desc;
+}
+
+float inTheMiddle(const Field& field) {
+    return field.irradiance({glm::vec3(1.2f), {0, 1, 0}, {0, 1, 0}}).x;
+}
+
+// Light without noise has nothing to wait for, whether or not there are fixed rays.
+TEST_P(BackendMotion, evenLightIsFollowedInTwoUpdates) {
+    for (const bool withFixedRays : {true, false})
+        for (const float factor : {0.1f, 0.8f, 1.25f, 10.0f}) {
+            const FieldDesc desc = motionDesc();
+            Field field = makeField(desc);
+            const auto update = [&](float light) {
+                const std::size_t fixed = withFixedRays ? std::size_t(probeCount(desc.grid) * desc.fixedRays) : 0;
+                const std::vector<FixedRayDatum> fixedData(fixed, {light, 0.0f, 1.0f});
+                ASSERT_TRUE(field.update(constantData(desc, glm::vec3(light), 1.0f), fixedData));
+            };
+            for (int frame = 0; frame < 100; ++frame) update(1.0f);
+            EXPECT_NEAR(inTheMiddle(field) / kPi, 1.0f, 0.002f);
+            for (int frame = 0; frame < 2; ++frame) update(factor);
+            EXPECT_LT(std::abs(inTheMiddle(field) / kPi - factor), 0.1f * std::abs(1 - factor)) << factor;
+        }
+}
+
+// Noise of the rays, with fixed rays that say that nothing happens: the mean is the mean, and the noise is averaged
+// over a hundred updates and more.
+TEST_P(BackendMotion, noiseUnderSteadyLightIsAveraged) {
+    FieldDesc desc = motionDesc();
+    desc.raysPerProbe = 16;
+    Field field = makeField(desc);
+    const std::vector<FixedRayDatum> fixedData(std::size_t(27 * desc.fixedRays), {1.0f, 0.2f, 1.0f});
+    double sum = 0, square = 0;
+    const int watched = 40, before = 160;
+    for (int frame = 0; frame < before + watched; ++frame) {
+        auto data = constantData(desc, glm::vec3(0.0f), 1.0f);
+        // One ray in sixteen is bright, another one in each frame and probe: mean 1.
+        std::uint32_t state = std::uint32_t(frame) * 7919u + 1u;
+        for (std::size_t probe = 0; probe < 27; ++probe) {
+            state = state * 747796405u + 2891336453u;
+            data[probe * 16 + (state >> 28)].radiance = glm::vec3(16.0f);
+        }
+        ASSERT_TRUE(field.update(data, fixedData));
+        if (frame < before) continue;
+        const double e = inTheMiddle(field) / kPi;
+        sum += e;
+        square += e * e;
+    }
+    const double mean = sum / watched;
+    EXPECT_NEAR(mean, 1.0, 0.05);  // encoded averaging of the same data gives 0.3
+    EXPECT_LT(std::sqrt(std::max(0.0, square / watched - mean * mean)) / mean, 0.02);
+}
+
+TEST_P(BackendMotion, fixedRaysOfTheWrongNumberAreRefused) {
+    const FieldDesc desc = motionDesc();
+    Field field = makeField(desc);
+    const auto result = field.update(constantData(desc, glm::vec3(1), 1), std::vector<FixedRayDatum>(17));
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::invalidArgument);
+    EXPECT_NE(result.error().message.find("fixedRays has 17"), std::string::npos);
+    EXPECT_EQ(field.frame(), 0);
+}
+
+TEST_P(BackendMotion, fixedRaysAreFixedAndThePaperHasNone) {
+    FieldDesc desc = motionDesc();
+    Field field = makeField(desc);
+    ASSERT_EQ(field.fixedRayDirections().size(), 32u);
+    const glm::vec3 first = field.fixedRayDirections()[3];
+    ASSERT_TRUE(field.update(constantData(desc, glm::vec3(1), 1)));
+    EXPECT_EQ(field.fixedRayDirections()[3], first);
+    desc.rules = FieldRules::paper;
+    EXPECT_TRUE(makeField(desc).fixedRayDirections().empty());
+}
+
+// What is no light must not reach the averages: it would never leave them.
+TEST_P(BackendMotion, badFixedRaysDoNotPoisonTheFilter) {
+    const FieldDesc desc = motionDesc();
+    Field field = makeField(desc);
+    const float nan = std::nanf("");
+    std::vector<FixedRayDatum> fixedData(std::size_t(27 * desc.fixedRays), {1.0f, 0.0f, 1.0f});
+    const auto data = constantData(desc, glm::vec3(1), 1);
+    ASSERT_TRUE(field.update(data, fixedData));
+    for (std::size_t i = 0; i < fixedData.size(); i += 5) fixedData[i] = {i % 2 ? nan : INFINITY, -nan, nan};
+    ASSERT_TRUE(field.update(data, fixedData));
+    for (FixedRayDatum& d : fixedData) d = {2.0f, 0.0f, 1.0f};
+    for (int frame = 0; frame < 2; ++frame) ASSERT_TRUE(field.update(constantData(desc, glm::vec3(2), 1), fixedData));
+    EXPECT_NEAR(inTheMiddle(field) / kPi, 2.0f, 0.01f);
+}
+
+// A door that shuts: distances are followed as well.
+TEST_P(BackendMotion, distancesAreFollowed) {
+    const FieldDesc desc = motionDesc();
+    Field field = makeField(desc);
+    const auto update = [&](float distance) {
+        const std::vector<FixedRayDatum> fixedData(std::size_t(27 * desc.fixedRays), {1.0f, 0.0f, distance});
+        ASSERT_TRUE(field.update(constantData(desc, glm::vec3(1), distance), fixedData));
+    };
+    for (int frame = 0; frame < 60; ++frame) update(2.0f);
+    for (int frame = 0; frame < 2; ++frame) update(0.5f);
+    EXPECT_NEAR(field.probeDistanceMoments(13, {0, 0, 1}).x, 0.5f, 0.02f);
+}
+
+}  // namespace
+}  // namespace probegi::test
