@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 
 #include "core/parallel.h"
+#include "kernels/gpu_volume.h"
 #include "kernels/probe_cage.h"
 
 namespace probegi {
@@ -14,7 +15,7 @@ constexpr std::size_t kProbesPerTask = 256;
 
 // The lag of a probe and the up to 26 around it.
 kernels::LagAround lagAround(const GridDesc& grid, std::span<const kernels::ProbeLag> lags, int probe) {
-    const glm::ivec3 at = kernels::probeCell(probe, grid.counts);
+    const glm::ivec3 at = kernels::gpuProbeCell(probe, grid.counts);
     const glm::ivec3 lowest = glm::max(at - 1, glm::ivec3(0)), highest = glm::min(at + 1, grid.counts - 1);
     const auto each = [&](const auto& visit) {
         for (int z = lowest.z; z <= highest.z; ++z)

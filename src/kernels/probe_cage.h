@@ -42,11 +42,6 @@ KERNEL_FN int probeNumber(ivec3 at, ivec3 counts) {
     return at.x + counts.x * (at.y + counts.y * at.z);
 }
 
-// The other way round.
-KERNEL_FN ivec3 probeCell(int probe, ivec3 counts) {
-    return ivec3(probe % counts.x, probe / counts.x % counts.y, probe / (counts.x * counts.y));
-}
-
 KERNEL_FN vec3 probePlace(ivec3 at, vec3 origin, vec3 spacing) {
     return origin + vec3(at) * spacing;
 }

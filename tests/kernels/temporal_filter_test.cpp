@@ -1,0 +1,154 @@
+#include "kernels/temporal_filter.h"
+
+#include <gtest/gtest.h>
+
+namespace probegi::kernels {
+namespace {
+
+ProbeSight evenSight(float direct, float bounced, float distance) {
+    SightSum sum = noSight();
+    for (int i = 0; i < 8; ++i) {
+        const vec3 d(i & 1 ? -1.0f : 1.0f, i & 2 ? -1.0f : 1.0f, i & 4 ? -1.0f : 1.0f);
+        addToSight(sum, d / std::sqrt(3.0f), direct, bounced, distance, 1.0f);
+    }
+    return sightOf(sum);
+}
+
+ProbeFilter settled(float direct, float bounced, float window) {
+    ProbeFilter f = unpackFilter(PackedProbeFilter{});
+    f.window = f.visibilityWindow = window;
+    advanceFilter(f, evenSight(direct, bounced, 0.5f));
+    return f;
+}
+
+LagAround alone(const ProbeLag& lag) {
+    LagAround around = noLag();
+    addLag(around, lag, lag.level, true);
+    return around;
+}
+
+TEST(TemporalFilter, aNewProbeKnowsNothing) {
+    const ProbeFilter f = unpackFilter(PackedProbeFilter{});
+    EXPECT_TRUE(isUnknown(f));
+    EXPECT_EQ(f.window, 0.0f);
+    const ProbeLag lag = probeLag(evenSight(3, 1, 0.5f), f);
+    EXPECT_EQ(lag.direct, 0.0f);
+    EXPECT_EQ(lag.bounced, 0.0f);
+    EXPECT_FLOAT_EQ(lag.level, 4.0f);
+}
+
+TEST(TemporalFilter, theFirstSightIsTheAverage) {
+    const ProbeFilter f = settled(3, 1, 50);
+    EXPECT_FALSE(isUnknown(f));
+    for (const float direct : f.direct) EXPECT_FLOAT_EQ(direct, 3.0f);
+    EXPECT_FLOAT_EQ(f.bounced, 1.0f);
+}
+
+// Closed form of a running average of a step: what is left after k updates of window w is (1 - 1/w)^k.
+TEST(TemporalFilter, averagesLagLikeTheProbe) {
+    ProbeFilter f = settled(1, 0, 20);
+    for (int k = 0; k < 30; ++k) advanceFilter(f, evenSight(2, 0, 0.5f));
+    const float left = std::pow(1.0f - 1.0f / 20.0f, 30.0f);
+    EXPECT_NEAR(f.direct[5], 2.0f - left, 1e-4f);
+    EXPECT_NEAR(filterLag(alone(probeLag(evenSight(2, 0, 0.5f), f)), 0.5f, false), left / 2.0f, 1e-4f);
+}
+
+TEST(TemporalFilter, stillLightHasNoLag) {
+    EXPECT_EQ(filterLag(alone(probeLag(evenSight(3, 1, 0.5f), settled(3, 1, 50))), 0.1f, false), 0.0f);
+}
+
+TEST(TemporalFilter, changeIsARatioAtEveryBrightness) {
+    for (const float level : {1e-6f, 1.0f, 1e6f}) {
+        const auto lagAfter = [&](float factor) {
+            const ProbeLag lag = probeLag(evenSight(factor * level, 0, 0.5f), settled(level, 0, 50));
+            return filterLag(alone(lag), 0.1f, false);
+        };
+        EXPECT_NEAR(lagAfter(0.1f), 0.9f, 1e-3f);
+        EXPECT_NEAR(lagAfter(10.0f), 0.9f, 1e-3f);
+        EXPECT_NEAR(lagAfter(0.8f), 0.2f, 1e-3f);
+    }
+}
+
+// A probe in the dark beside a bright one does not mind a flicker of nothing.
+TEST(TemporalFilter, darkProbesAreJudgedByTheirBrightestNeighbour) {
+    const ProbeLag dark = probeLag(evenSight(0.002f, 0, 0.5f), settled(0.001f, 0, 50));
+    LagAround around = noLag();
+    addLag(around, dark, 10.0f, true);
+    EXPECT_NEAR(around.direct, 0.001f / (kDarkShare * 10.0f), 1e-5f);
+}
+
+TEST(TemporalFilter, bouncedNoiseOfNeighboursCancels) {
+    LagAround around = noLag();
+    for (int i = 0; i < 26; ++i) {
+        ProbeLag lag{};
+        lag.bounced = i % 2 ? 0.5f : -0.5f;
+        lag.level = 1.0f;
+        addLag(around, lag, 1.0f, i == 0);
+    }
+    EXPECT_NEAR(filterLag(around, 0.1f, false), 0.0f, 1e-6f);
+}
+
+// Lag is as large as the noise that an average of that window has left: lag^2 = noise^2 / (2 window).
+TEST(TemporalFilter, windowsBalanceLagAndNoise) {
+    EXPECT_FLOAT_EQ(nextWindow(100, 0.4f, 0.1f, 200), 8.0f);
+    EXPECT_FLOAT_EQ(nextWindow(100, 0.4f, 0.9f, 200), 1.0f);
+    EXPECT_FLOAT_EQ(nextWindow(100, 0.4f, 0.0f, 200), 100.5f);
+    EXPECT_FLOAT_EQ(nextWindow(200, 0.4f, 0.0f, 200), 200.0f);
+    EXPECT_FLOAT_EQ(nextWindow(100, 0.4f, 0.0f, 33), 33.0f);
+    EXPECT_FLOAT_EQ(nextWindow(0, 0.0f, 0.0f, 200), 1.0f);
+    EXPECT_FLOAT_EQ(keptBy(4.0f), 0.75f);
+    EXPECT_FLOAT_EQ(keptBy(0.0f), 0.0f);
+}
+
+// The difference between two independent values of variance v, one of them averaged over a window.
+TEST(TemporalFilter, noiseIsThatOfOneUpdate) {
+    float noise = 0.3f;
+    const float window = 5.0f, variance = 0.04f;
+    const float change = variance * (1.0f + 1.0f / (2.0f * window - 1.0f));
+    for (int k = 0; k < 300; ++k) noise = nextNoise(noise, change, 0.0f, window, false);
+    EXPECT_NEAR(noise, 0.2f, 1e-3f);
+    EXPECT_EQ(nextNoise(0.3f, 1.0f, 0.0f, 1.0f, true), 0.0f);
+}
+
+TEST(TemporalFilter, lagIsNotTakenForNoise) {
+    EXPECT_LE(nextNoise(0.1f, 0.81f, 0.9f, 1.0f, false), 0.1f);
+    EXPECT_LE(nextNoise(0.1f, 1.5f, 0.9f, 1.0f, false), 0.1f);
+    EXPECT_GT(nextNoise(0.1f, 1.5f, 0.1f, 1.0f, false), 0.2f);
+}
+
+TEST(TemporalFilter, ownRaysCountBeyondTheirNoise) {
+    EXPECT_EQ(lagBeyondNoise(0.25f, 0.1f), 0.0f);
+    EXPECT_NEAR(lagBeyondNoise(0.5f, 0.1f), 0.4f, 1e-6f);
+    EXPECT_EQ(lagBeyondNoise(0.5f, 0.0f), 0.5f);
+}
+
+// Dithered halves: the mean of many packings is the value, at every level.
+TEST(TemporalFilter, packingKeepsTheMean) {
+    for (const float level : {1e-6f, 1e-2f, 1.0f, 1e4f}) {
+        ProbeFilter f = settled(level, 0.3f * level, 7.5f);
+        f.noise = 0.123f;
+        double sum = 0, noise = 0;
+        const int count = 4096;
+        for (int i = 0; i < count; ++i) {
+            const ProbeFilter back = unpackFilter(packFilter(f, hashUint(std::uint32_t(i))));
+            sum += back.direct[2];
+            noise += back.noise;
+            ASSERT_EQ(back.window, 7.5f);
+            ASSERT_FALSE(isUnknown(back));
+        }
+        EXPECT_NEAR(sum / count / level, 1.0, 1e-3);
+        EXPECT_NEAR(noise / count, 0.123, 1e-4);
+    }
+    const ProbeFilter forgotten = unpackFilter(forgottenFilter(1000));
+    EXPECT_TRUE(isUnknown(forgotten));
+    EXPECT_EQ(forgotten.window, kLongestWindow);
+}
+
+TEST(TemporalFilter, changeOfTexelsIsRelative) {
+    TexelChange change = noChange();
+    for (int i = 0; i < 4; ++i) addTexelChange(change, vec3(1.0f), vec3(i % 2 ? 1.5f : 0.5f));
+    EXPECT_NEAR(relativeChange(change, 4), 0.25f, 1e-5f);
+}
+
+}  // namespace
+}  // namespace probegi::kernels
