@@ -7,7 +7,7 @@
 #include "core/parallel.h"
 #include "kernels/irradiance_decoding.h"
 #include "kernels/storage.h"
-#include "surface/probe_trace.h"
+#include "surface/probe_emitters.h"
 
 namespace probegi {
 
@@ -52,15 +52,16 @@ FieldView CpuField::view(const FieldDesc& desc) const noexcept {
             .inverseMaxDistance = 1.0f / m_layout.maxDistance};
 }
 
-void CpuField::blend(const UpdateFrame& frame, std::span<const RayDatum> rayData) {
+void CpuField::blend(const UpdateFrame& frame, std::span<const RayDatum> rayData,
+                     std::span<const kernels::EmitterLight> emitters) {
     makeBlendWeights(m_context, frame.desc, frame.directions, m_weights);
     blendProbes(m_context, frame.desc, m_layout, m_weights, rayData, {frame.hysteresis, frame.linear, frame.ditherSeed},
-                m_storage);
+                m_storage, emitters);
 }
 
 Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, std::span<const RayDatum> rayData) {
     const auto start = Clock::now();
-    blend(frame, rayData);
+    blend(frame, rayData, {});
     const double elapsed = millisecondsSince(start);
     return UpdateTimes{0, 0, elapsed, elapsed};
 }
@@ -75,9 +76,12 @@ Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, const Tracer& tra
         bounces = [&](std::span<const FieldQuery> queries, std::span<glm::vec3> out) {
             queryIrradiance(last, queries, out);
         };
-    traceProbes(m_context, frame.desc.grid, frame.directions, tracer, lighting, bounces, m_rayData, sums);
+    const EmitterSearch emitters = emitterSearch(frame.desc, tracer, frame.ditherSeed);
+    traceProbes(m_context, frame.desc.grid, frame.directions, tracer, lighting, bounces, emitters, m_rayData, sums);
+    m_emitterLights.resize(m_layout.probes * std::size_t(emitters.looks));
+    if (emitters) lookAtEmitters(m_context, frame.desc.grid, emitters, tracer, m_emitterLights, sums);
     const double traced = millisecondsSince(start);
-    blend(frame, m_rayData);
+    blend(frame, m_rayData, m_emitterLights);
 
     // Stages of different threads overlap: the wall time of tracing and shading is split in their proportion.
     const double sum = std::max(1.0, double(sums.traceNs + sums.shadeNs));
@@ -122,7 +126,7 @@ FieldMemory CpuField::memory() const noexcept {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return {bytes(m_storage.irradiance), bytes(m_storage.visibility),
             bytes(m_storage.backfaceShare) + bytes(m_irradianceTaps) + bytes(m_visibilityTaps) + sizeof(*this),
-            bytes(m_rayData) + bytes(m_weights.irradiance) + bytes(m_weights.visibility)};
+            bytes(m_rayData) + bytes(m_emitterLights) + bytes(m_weights.irradiance) + bytes(m_weights.visibility)};
 }
 
 float CpuField::probeBackfaceShare(int probe) const noexcept {

@@ -29,7 +29,8 @@ public:
 
 private:
     FieldView view(const FieldDesc& desc) const noexcept;
-    void blend(const UpdateFrame& frame, std::span<const RayDatum> rayData);
+    void blend(const UpdateFrame& frame, std::span<const RayDatum> rayData,
+               std::span<const kernels::EmitterLight> emitters);
 
     Context m_context;
     FieldDesc m_desc;  // as it was made: sizes, not the guard
@@ -37,6 +38,7 @@ private:
     FieldStorage m_storage;
     TapTable m_irradianceTaps, m_visibilityTaps;
     std::vector<RayDatum> m_rayData;
+    std::vector<kernels::EmitterLight> m_emitterLights;
     BlendWeights m_weights;
     mutable std::atomic<std::uint64_t> m_fallbacks{0};
 };

@@ -70,10 +70,12 @@ struct BlendPush {
     float significantChange;  // Listing 3
     float newDistribution;    // Listing 3
     uint ditherSeed;
-    int linear;  // 1: blendLinear
+    int linear;           // 1: blendLinear
+    uvec2 emitterLights;  // EmitterLight[probe][look]
+    int looks;            // at emitters, a probe; 0: none
 };
 
-// Probe rays (trace_probes.comp) and their shading (shade_probes.comp).
+// Probe rays (trace_probes.comp), their shading (shade_probes.comp), and looks at emitters (look_at_emitters.comp).
 struct TracePush {
     uvec2 directions;  // vec3[rays]
     uvec2 hits;        // Hit[ray][probe]
@@ -81,7 +83,10 @@ struct TracePush {
     uvec2 lighting;    // LightingBlock
     int rays;
     int probes;
-    int bounces;  // 1: the probes hold light of an earlier update
+    int bounces;          // 1: the probes hold light of an earlier update
+    int looks;            // at emitters, a probe; 0: none
+    uvec2 emitterLights;  // EmitterLight[probe][look]
+    uint emitterSeed;     // of the frame
 };
 
 // Irradiance at points (query.comp).
@@ -159,8 +164,8 @@ KERNELS_END
 
 #ifdef __cplusplus
 namespace probegi::kernels {
-static_assert(offsetof(SceneConstants, bvh) == 124 && sizeof(SceneConstants) == 156 && sizeof(LightingBlock) == 40);
-static_assert(sizeof(WeightsPush) == 56 && sizeof(BlendPush) == 68 && sizeof(TracePush) == 44);
+static_assert(offsetof(SceneConstants, bvh) == 140 && sizeof(SceneConstants) == 172 && sizeof(LightingBlock) == 40);
+static_assert(sizeof(WeightsPush) == 56 && sizeof(BlendPush) == 80 && sizeof(TracePush) == 60);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 28 && sizeof(PicturePush) == 96);
 static_assert(sizeof(ToneMapPush) == 28 && sizeof(GpuSurface) == 76 && sizeof(GpuSample) == 100);
 }  // namespace probegi::kernels

@@ -9,6 +9,7 @@
 #include "kernels/language.h"
 #include "scene/sky.h"
 #include "surface/lighting.h"
+#include "surface/probe_emitters.h"
 
 namespace probegi {
 
@@ -82,7 +83,7 @@ void queryBounces(const BounceQuery& bounces, TaskBuffers& b) {
 }
 
 // Distances and the radiance that does not depend on other light; lists the hits that reflect.
-void resolveHits(const Lighting& lighting, TaskBuffers& b, RayDatum* out) {
+void resolveHits(const Lighting& lighting, const EmitterSearch& emitters, TaskBuffers& b, RayDatum* out) {
     b.lit.clear();
     for (std::uint32_t i = 0; i < b.rays.size(); ++i) {
         const Hit& hit = b.hits[i];
@@ -91,7 +92,7 @@ void resolveHits(const Lighting& lighting, TaskBuffers& b, RayDatum* out) {
         } else if (b.surfaces[i].backface) {
             out[i] = {glm::vec3(0), -hit.distance};
         } else {
-            out[i] = {b.surfaces[i].emission, hit.distance};
+            out[i] = {b.surfaces[i].emission * emitters.rayShare(b.surfaces[i], b.rays[i], hit.distance), hit.distance};
             b.lit.push_back(i);
         }
     }
@@ -101,7 +102,7 @@ void resolveHits(const Lighting& lighting, TaskBuffers& b, RayDatum* out) {
 
 void traceProbes(const Context& context, const GridDesc& grid, std::span<const glm::vec3> directions,
                  const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces,
-                 std::span<RayDatum> rayData, TraceTimes& times) {
+                 const EmitterSearch& emitters, std::span<RayDatum> rayData, TraceTimes& times) {
     const float magnitude = sceneMagnitude(tracer.bounds());
     const std::size_t probesPerTask = std::max<std::size_t>(1, kRaysPerTask / directions.size());
     parallelFor(context, std::size_t(probeCount(grid)), probesPerTask, [&](std::size_t begin, std::size_t end) {
@@ -113,7 +114,7 @@ void traceProbes(const Context& context, const GridDesc& grid, std::span<const g
 
         tracer.surfaces(b.rays, b.hits, b.surfaces);
         RayDatum* out = rayData.data() + begin * directions.size();
-        resolveHits(lighting, b, out);
+        resolveHits(lighting, emitters, b, out);
         queryBounces(bounces, b);
         addDirectLight(tracer, lighting, magnitude, b);
         for (std::size_t k = 0; k < b.lit.size(); ++k)

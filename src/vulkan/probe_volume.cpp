@@ -48,7 +48,7 @@ Result<void> ProbeVolume::recordUpdate(VkCommandBuffer commands, const GpuScene&
 Result<void> ProbeVolume::recordUpdate(VkCommandBuffer commands, VkDeviceAddress rayData, Profiler* profiler) {
     return m_impl->recorded("recording an update", [&] {
         m_impl->passes.recordUpdate({m_impl->passes.device().impl(), commands}, m_impl->books.comingUpdate(), rayData,
-                                    profiler);
+                                    {}, profiler);
         m_impl->books.advance();
     });
 }

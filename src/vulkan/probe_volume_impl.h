@@ -10,6 +10,12 @@
 
 namespace probegi::vulkan {
 
+/// What the looks at emitters brought: EmitterLight[probe][looks] at an address.
+struct EmitterLights {
+    VkDeviceAddress address = 0;
+    int looks = 0;  ///< a probe; 0: none
+};
+
 /// Probes in GPU memory and the passes over them. What an update needs to know of the frame comes from outside: from
 /// ProbeVolume's books for an engine, from Field's for a FieldBackend. Throws Failure and what Vulkan-Hpp throws.
 class VolumePasses {
@@ -22,7 +28,8 @@ public:
     void recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
                       const GpuLighting& lighting, Profiler* profiler);
     /// Blends the ray data at an address.
-    void recordUpdate(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData, Profiler* profiler);
+    void recordUpdate(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData,
+                      const EmitterLights& emitters, Profiler* profiler);
     void recordQuery(const Recorder& recorder, const FieldDesc& desc, VkDeviceAddress queries,
                      VkDeviceAddress irradiance, std::uint32_t count, Profiler* profiler);
     /// Brings the constants up to date with the desc's guard, for whoever reads set() in passes of its own.
@@ -44,12 +51,13 @@ public:
 private:
     kernels::GpuVolume constants(LeakGuard guard) const;
     void writeSet();
-    void makeRayBuffers();
+    void makeRayBuffers(int looks);
     void beginUpdate(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler);
     void recordWeights(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler);
     void recordTrace(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
-                     const GpuLighting& lighting, Profiler* profiler);
-    void recordBlend(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData, Profiler* profiler);
+                     const GpuLighting& lighting, const EmitterLights& emitters, Profiler* profiler);
+    void recordBlend(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData,
+                     const EmitterLights& emitters, Profiler* profiler);
 
     Device m_device;
     FieldDesc m_desc;
@@ -62,6 +70,7 @@ private:
     Buffer m_visibilityCounts;   // uint[texel]
     Buffer m_visibilityWeights;  // GpuRayWeight[entry][texel]
     Buffer m_hits, m_rayData;    // made by the first traced update
+    Buffer m_emitterLights;      // made by the first with emitters
     vk::raii::DescriptorPool m_pool{nullptr};
     vk::raii::DescriptorSets m_sets{nullptr};
     std::optional<LeakGuard> m_recordedGuard;  // what the constants hold once all that was recorded has run

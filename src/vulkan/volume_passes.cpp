@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "kernels/gpu_passes.h"
+#include "surface/probe_emitters.h"
 #include "vulkan/errors.h"
 #include "vulkan/gpu_lighting_impl.h"
 #include "vulkan/gpu_scene_impl.h"
@@ -133,10 +134,13 @@ void VolumePasses::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBi
 FieldMemory VolumePasses::memory() const noexcept {
     return {m_irradiance.bytes(), m_visibility.bytes(), m_states.bytes() + m_constants.bytes() + m_directions.bytes(),
             m_irradianceWeights.bytes() + m_visibilityCounts.bytes() + m_visibilityWeights.bytes() + m_hits.bytes() +
-                m_rayData.bytes()};
+                m_rayData.bytes() + m_emitterLights.bytes()};
 }
 
-void VolumePasses::makeRayBuffers() {
+void VolumePasses::makeRayBuffers(int looks) {
+    if (looks > 0 && !m_emitterLights)
+        m_emitterLights = Buffer(m_device.impl(), "emitter lights",
+                                 m_layout.probes * std::size_t(looks) * sizeof(kernels::EmitterLight), kAddressed);
     if (m_rayData) return;
     const std::size_t rays = m_layout.probes * m_layout.rays;
     Buffer hits(m_device.impl(), "probe ray hits", rays * sizeof(Hit), kAddressed);
@@ -190,7 +194,7 @@ void VolumePasses::recordWeights(const Recorder& recorder, const UpdateFrame& fr
 }
 
 void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
-                               const GpuLighting& lighting, Profiler* profiler) {
+                               const GpuLighting& lighting, const EmitterLights& emitters, Profiler* profiler) {
     const std::uint64_t rays = std::uint64_t(m_layout.probes) * m_layout.rays;
     const std::string tracer = scene.impl().shaderSuffix();
     recorder.bindScene(scene.impl().set());
@@ -200,7 +204,10 @@ void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& fram
                                      .lighting = packAddress(lighting.impl().address()),
                                      .rays = int(m_layout.rays),
                                      .probes = int(m_layout.probes),
-                                     .bounces = frame.bounces ? 1 : 0});
+                                     .bounces = frame.bounces ? 1 : 0,
+                                     .looks = emitters.looks,
+                                     .emitterLights = packAddress(emitters.address),
+                                     .emitterSeed = frame.ditherSeed});
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "trace");
         recorder.dispatchOver("trace_probes" + tracer, rays);
@@ -210,11 +217,15 @@ void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& fram
         const PassScope scope(recorder, m_device.impl(), profiler, "shade");
         recorder.dispatchOver("shade_probes" + tracer, rays);
     }
+    if (emitters.looks > 0) {
+        const PassScope scope(recorder, m_device.impl(), profiler, "emitters");
+        recorder.dispatchOver("look_at_emitters" + tracer, m_layout.probes * std::uint64_t(emitters.looks));
+    }
     recorder.computeToCompute();
 }
 
 void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData,
-                               Profiler* profiler) {
+                               const EmitterLights& emitters, Profiler* profiler) {
     recorder.push(kernels::BlendPush{.rayData = packAddress(rayData),
                                      .irradianceWeights = packAddress(m_irradianceWeights.address()),
                                      .visibilityCounts = packAddress(m_visibilityCounts.address()),
@@ -227,7 +238,9 @@ void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& fram
                                      .significantChange = frame.desc.significantChange,
                                      .newDistribution = frame.desc.newDistribution,
                                      .ditherSeed = frame.ditherSeed,
-                                     .linear = frame.linear ? 1 : 0});
+                                     .linear = frame.linear ? 1 : 0,
+                                     .emitterLights = packAddress(emitters.address),
+                                     .looks = emitters.looks});
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "blend irradiance");
         recorder.dispatchOver("blend_irradiance", groups(m_layout.probes, kernels::kIrradianceGroupProbes),
@@ -256,20 +269,22 @@ void VolumePasses::beginUpdate(const Recorder& recorder, const UpdateFrame& fram
 
 void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
                                 const GpuLighting& lighting, Profiler* profiler) {
-    makeRayBuffers();
-    for (const char* shader : {"trace_probes", "shade_probes"})
+    const int looks = scene.impl().emitters.empty() ? 0 : emitterLooks(frame.desc);
+    makeRayBuffers(looks);
+    for (const char* shader : {"trace_probes", "shade_probes", "look_at_emitters"})
         m_device.impl().pipelines->get(shader + scene.impl().shaderSuffix());
+    const EmitterLights emitters{m_emitterLights.address(), looks};
     beginUpdate(recorder, frame, profiler);
-    recordTrace(recorder, frame, scene, lighting, profiler);
-    recordBlend(recorder, frame, m_rayData.address(), profiler);
+    recordTrace(recorder, frame, scene, lighting, emitters, profiler);
+    recordBlend(recorder, frame, m_rayData.address(), emitters, profiler);
     recorder.orderAll();
 }
 
 void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData,
-                                Profiler* profiler) {
+                                const EmitterLights& emitters, Profiler* profiler) {
     beginUpdate(recorder, frame, profiler);
     recorder.computeToCompute();
-    recordBlend(recorder, frame, rayData, profiler);
+    recordBlend(recorder, frame, rayData, emitters, profiler);
     recorder.orderAll();
 }
 

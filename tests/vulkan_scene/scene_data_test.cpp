@@ -14,7 +14,8 @@ Material textured(int image) {
 }
 
 vulkan::SceneData pack(const TestScene& s) {
-    return vulkan::packScene(SceneGeometry::gather(s.scene, s.pose), s.scene);
+    return vulkan::packScene(SceneGeometry::gather(s.scene, s.pose), EmitterGeometry(s.scene, s.pose).placed(),
+                             s.scene);
 }
 
 }  // namespace

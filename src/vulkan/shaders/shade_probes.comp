@@ -7,6 +7,7 @@
 #include "volume.glsl"
 
 #include "kernels/bounce.h"
+#include "kernels/emitter_sampling.h"
 
 layout(push_constant, scalar) uniform Push {
     TracePush push;
@@ -22,12 +23,21 @@ vec3 lambertIrradiance(Surface surface, vec3 toViewer) {
     return e;
 }
 
+// Of an emission that the ray met; looks at emitters bring the rest.
+float emissionShare(Surface surface, Ray ray, Hit hit) {
+    const float perArea = push.looks > 0 ? emitterPerArea(surface.material) : 0.0;
+    if (!(perArea > 0.0)) return 1.0;
+    const float cosine = dot(surface.geometricNormal, ray.direction);
+    return rayEmissionShare(push.rays, push.looks, emitterDensity(perArea, hit.distance, cosine));
+}
+
 RayDatum shade(Ray ray, Hit hit) {
     if (hit.primitive < 0) return RayDatum(skyRadianceAt(ray.direction), kNoHitDistance);
     const Surface surface = surfaceAt(ray, hit);
     if (surface.backface) return RayDatum(vec3(0.0), -hit.distance);
     const vec3 e = lambertIrradiance(surface, -ray.direction);
-    return RayDatum(surface.emission + bounceRadiance(surface.albedo, e), hit.distance);
+    return RayDatum(emissionShare(surface, ray, hit) * surface.emission + bounceRadiance(surface.albedo, e),
+                    hit.distance);
 }
 
 void main() {
