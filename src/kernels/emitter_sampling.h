@@ -1,7 +1,9 @@
 // Points on emitters that a probe looks at besides its update rays, and how the two ways of meeting an emitter share
-// its light: multiple importance sampling with the power heuristic (Veach 1997, sections 9.2.2 and 9.2.4). The balance
-// heuristic, whose shares follow the densities themselves, was measured to be worse everywhere: update rays are spread
-// evenly and so are far less noisy than their number says, above all where everything glows.
+// its light: multiple importance sampling with the power heuristic (Veach 1997, sections 9.2.2 and 9.2.4), its exponent
+// 4, and the densities taken as if every emitter faced the probe. Both keep looks away from where rays already do well:
+// they are spread evenly and far less noisy than their number says. Measured, deviation of one update over its mean
+// with 4 looks, balance heuristic / exponent 2 / this: furnace with 32 rays 2.7 / 0.84 / 0.13 % (0.12 % without looks),
+// Cornell box with 144 rays 10.4 / 9.1 / 9.7 % (54 % without).
 #ifndef PROBEGI_KERNELS_EMITTER_SAMPLING_H
 #define PROBEGI_KERNELS_EMITTER_SAMPLING_H
 
@@ -59,26 +61,32 @@ KERNEL_FN float emitterTolerance(EmitterAim aim, float offset) {
     return 1e-4f * aim.distance + 4.0f * offset / max(aim.cosine, 0.05f);
 }
 
-// Density per steradian of looking at a point, from that per square metre.
-KERNEL_FN float emitterDensity(float perArea, float distance, float cosine) {
-    return perArea * distance * distance / max(abs(cosine), 1e-6f);
-}
-
 // Density per steradian of all update rays of a probe together.
 KERNEL_FN float rayDensity(int rays) {
     return float(rays) * (0.25f / kPi);
 }
 
-// Share of an emission that counts for an update ray which meets it, where looks meet it with density `density` each.
-KERNEL_FN float rayEmissionShare(int rays, int looks, float density) {
-    return powerHeuristic(rayDensity(rays), float(looks) * density);
+// The same of all looks at a point that faces the probe, where `perArea` is the density of each per square metre.
+KERNEL_FN float lookDensity(int looks, float perArea, float distance) {
+    return float(looks) * perArea * (distance * distance);
+}
+
+// Share of the light of a point in favour of the way of meeting it that has density `own`.
+KERNEL_FN float emissionShare(float own, float other) {
+    const float ratio = min(other / max(own, 1e-30f), 1e9f);
+    return 1.0f / (1.0f + (ratio * ratio) * (ratio * ratio));
+}
+
+// Share of an emission that counts for an update ray which meets it at this distance.
+KERNEL_FN float rayEmissionShare(int rays, int looks, float perArea, float distance) {
+    return emissionShare(rayDensity(rays), lookDensity(looks, perArea, distance));
 }
 
 // What the radiance that a look meets is to be multiplied with: its share, over the density of all looks, over pi (for
 // the mean of radiance that a cosine weights).
-KERNEL_FN float emitterLightFactor(int rays, int looks, float density) {
-    const float all = float(looks) * density;
-    return powerHeuristic(all, rayDensity(rays)) / (kPi * max(all, 1e-30f));
+KERNEL_FN float emitterLightFactor(int rays, int looks, float perArea, EmitterAim aim) {
+    const float facing = lookDensity(looks, perArea, aim.distance);
+    return emissionShare(facing, rayDensity(rays)) * aim.cosine / (kPi * max(facing, 1e-30f));
 }
 
 KERNELS_END

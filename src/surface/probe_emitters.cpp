@@ -59,8 +59,8 @@ kernels::EmitterLight lightOf(const EmitterSearch& search, std::size_t i, const 
     if (!b.hits[i].valid() || surface.backface || surface.material != b.materials[i] || !(at.cosine > 0)) return light;
     const float tolerance = b.rays[i].far - at.distance;
     if (!(std::abs(b.hits[i].distance - at.distance) <= tolerance)) return light;
-    const float density = kernels::emitterDensity(search.set->density(surface.material), at.distance, at.cosine);
-    const float factor = kernels::emitterLightFactor(search.rays, search.looks, density);
+    const float perArea = search.set->density(surface.material);
+    const float factor = kernels::emitterLightFactor(search.rays, search.looks, perArea, at);
     for (int c = 0; c < 3; ++c) light.light[c] = factor * kernels::safeRadiance(surface.emission[c]);
     return light;
 }

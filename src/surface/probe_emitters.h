@@ -1,6 +1,5 @@
 #pragma once
 
-#include <glm/geometric.hpp>
 #include <span>
 
 #include "kernels/emitter_sampling.h"
@@ -18,11 +17,8 @@ struct EmitterSearch {
 
     explicit operator bool() const noexcept { return set != nullptr; }
     /// Share of an emission that counts for the update ray which met it; the looks bring the rest.
-    float rayShare(const Surface& surface, const Ray& ray, float distance) const noexcept {
-        const float perArea = set ? set->density(surface.material) : 0.0f;
-        if (!(perArea > 0.0f)) return 1.0f;
-        const float cosine = glm::dot(surface.geometricNormal, ray.direction);
-        return kernels::rayEmissionShare(rays, looks, kernels::emitterDensity(perArea, distance, cosine));
+    float rayShare(std::int32_t material, float distance) const noexcept {
+        return set ? kernels::rayEmissionShare(rays, looks, set->density(material), distance) : 1.0f;
     }
 };
 

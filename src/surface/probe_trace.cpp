@@ -92,7 +92,7 @@ void resolveHits(const Lighting& lighting, const EmitterSearch& emitters, TaskBu
         } else if (b.surfaces[i].backface) {
             out[i] = {glm::vec3(0), -hit.distance};
         } else {
-            out[i] = {b.surfaces[i].emission * emitters.rayShare(b.surfaces[i], b.rays[i], hit.distance), hit.distance};
+            out[i] = {b.surfaces[i].emission * emitters.rayShare(b.surfaces[i].material, hit.distance), hit.distance};
             b.lit.push_back(i);
         }
     }

@@ -50,8 +50,7 @@ EmitterLight look(int probe, uint index) {
         probePlace(gpuProbeCell(probe, probegiVolume.counts), probegiVolume.origin, probegiVolume.spacing);
     const EmitterAim aim = aimAtEmitter(origin, emitter.corner, emitter.edge1, emitter.edge2,
                                         emitterBarycentric(seed, index, choice, below, emitter.upTo));
-    const float density = emitterDensity(emitterPerArea(emitter.material), aim.distance, aim.cosine);
-    const float factor = emitterLightFactor(push.rays, push.looks, density);
+    const float factor = emitterLightFactor(push.rays, push.looks, emitterPerArea(emitter.material), aim);
     return EmitterLight(aim.direction, factor * arriving(origin, aim, emitter.material));
 }
 

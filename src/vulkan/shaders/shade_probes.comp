@@ -23,12 +23,10 @@ vec3 lambertIrradiance(Surface surface, vec3 toViewer) {
     return e;
 }
 
-// Of an emission that the ray met; looks at emitters bring the rest.
-float emissionShare(Surface surface, Ray ray, Hit hit) {
-    const float perArea = push.looks > 0 ? emitterPerArea(surface.material) : 0.0;
-    if (!(perArea > 0.0)) return 1.0;
-    const float cosine = dot(surface.geometricNormal, ray.direction);
-    return rayEmissionShare(push.rays, push.looks, emitterDensity(perArea, hit.distance, cosine));
+// Of an emission that a ray met; looks at emitters bring the rest.
+float rayShare(Surface surface, float distance) {
+    if (push.looks == 0) return 1.0;
+    return rayEmissionShare(push.rays, push.looks, emitterPerArea(surface.material), distance);
 }
 
 RayDatum shade(Ray ray, Hit hit) {
@@ -36,7 +34,7 @@ RayDatum shade(Ray ray, Hit hit) {
     const Surface surface = surfaceAt(ray, hit);
     if (surface.backface) return RayDatum(vec3(0.0), -hit.distance);
     const vec3 e = lambertIrradiance(surface, -ray.direction);
-    return RayDatum(emissionShare(surface, ray, hit) * surface.emission + bounceRadiance(surface.albedo, e),
+    return RayDatum(rayShare(surface, hit.distance) * surface.emission + bounceRadiance(surface.albedo, e),
                     hit.distance);
 }
 
