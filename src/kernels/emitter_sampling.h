@@ -73,7 +73,8 @@ KERNEL_FN float lookDensity(int looks, float perArea, float distance) {
 
 // Share of the light of a point in favour of the way of meeting it that has density `own`.
 KERNEL_FN float emissionShare(float own, float other) {
-    const float ratio = min(other / max(own, 1e-30f), 1e9f);
+    if (!(own > 0.0f)) return 0.0f;
+    const float ratio = min(other / own, 1e9f);  // its fourth power stays finite
     return 1.0f / (1.0f + (ratio * ratio) * (ratio * ratio));
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <map>
 #include <utility>
 
 #include "kernels/colour.h"
@@ -23,17 +24,26 @@ float meanLuminance(const TextureImage& image) {
     return texels > 0 ? float(sum / double(texels)) : 0.0f;
 }
 
+/// By material: of its emission, its texture included.
+std::vector<float> meanLuminances(const Scene& scene) {
+    std::map<int, float> images;
+    std::vector<float> luminances;
+    for (const Material& material : scene.materials) {
+        float& luminance = luminances.emplace_back(kernels::luminance(material.emission));
+        const int image = material.emissiveTexture.image;
+        if (image < 0 || luminance <= 0) continue;
+        const auto [found, isNew] = images.try_emplace(image, 0.0f);
+        if (isNew) found->second = meanLuminance(scene.images[std::size_t(image)]);
+        luminance *= found->second;
+    }
+    return luminances;
+}
+
 }  // namespace
 
 double emitterPower(const EmissiveTriangle& triangle, float luminance) {
     const double power = 0.5 * double(glm::length(glm::cross(triangle.edge1, triangle.edge2))) * double(luminance);
     return std::isfinite(power) ? power : 0.0;
-}
-
-float meanEmittedLuminance(const Scene& scene, const Material& material) {
-    const float factor = kernels::luminance(material.emission);
-    const int image = material.emissiveTexture.image;
-    return image < 0 || factor <= 0 ? factor : factor * meanLuminance(scene.images[std::size_t(image)]);
 }
 
 EmitterSet makeEmitterSet(std::vector<EmissiveTriangle> triangles, std::vector<float> luminance) {
@@ -58,8 +68,7 @@ EmitterSet makeEmitterSet(std::vector<EmissiveTriangle> triangles, std::vector<f
     return set;
 }
 
-EmitterGeometry::EmitterGeometry(const Scene& scene, const ScenePose& pose) {
-    for (const Material& material : scene.materials) m_luminance.push_back(meanEmittedLuminance(scene, material));
+EmitterGeometry::EmitterGeometry(const Scene& scene, const ScenePose& pose) : m_luminance(meanLuminances(scene)) {
     for (const Instance& instance : pose.instances) {
         const std::size_t first = m_triangles.size();
         for (const Primitive& primitive : scene.meshes[std::size_t(instance.mesh)].primitives) append(primitive);

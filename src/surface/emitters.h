@@ -7,9 +7,6 @@
 
 namespace probegi {
 
-/// Mean luminance of a material's emission, its texture included, W sr^-1 m^-2.
-float meanEmittedLuminance(const Scene& scene, const Material& material);
-
 /// Area times luminance, W sr^-1; 0 for a triangle that cannot be aimed at.
 double emitterPower(const EmissiveTriangle& triangle, float luminance);
 
