@@ -19,7 +19,7 @@ Emitters::Emitters(const Scene& scene, const ScenePose& pose) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
         m_materials.push_back({.emission = material.emission,
-                               .pdfArea = set.empty() ? 0.0f : set.density(std::int32_t(i)),
+                               .pdfArea = set.density(std::int32_t(i)),
                                .uniform = material.emissiveTexture.image < 0 && material.alphaMode == AlphaMode::opaque,
                                .doubleSided = material.doubleSided});
     }

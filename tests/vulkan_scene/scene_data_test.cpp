@@ -72,6 +72,23 @@ TEST(PackScene, GroupsHaveTwoMeshesEach) {
     expectNear(data.instances[1].toObject * glm::vec4(there, 1), {1, 2, 3}, 1e-6f);
 }
 
+TEST(PackScene, EmittersAndTheirMaterialsFollowTheSet) {
+    TestScene s;
+    Material lamp;
+    lamp.emission = {3, 3, 3};
+    s.add(quad());
+    s.add(quad(s.addMaterial(lamp)), glm::translate(glm::mat4(1.0f), {0, 5, 0}));
+    const vulkan::SceneData data = pack(s);
+    ASSERT_EQ(data.emitters.size(), 2u);
+    EXPECT_EQ(data.emitters[0].corner, glm::vec3(-1, 5, -1));
+    EXPECT_EQ(data.emitters[0].edge1, glm::vec3(0, 0, 2));
+    EXPECT_EQ(data.emitters[0].edge2, glm::vec3(2, 0, 2));
+    EXPECT_EQ(data.emitters[1].upTo, 0xffffffffu);
+    EXPECT_EQ(data.emitters[1].material, 1);
+    EXPECT_EQ(data.materials[0].emittedLuminance, 0.0f);
+    EXPECT_NEAR(data.materials[1].emittedLuminance, 3.0f, 1e-5f);
+}
+
 TEST(PackAddress, KeepsBothHalves) {
     EXPECT_EQ(vulkan::packAddress(0x123456789abcdef0u), glm::uvec2(0x9abcdef0u, 0x12345678u));
 }
