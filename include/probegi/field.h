@@ -50,7 +50,10 @@ struct FieldDesc {
     BackfaceRule backfaceRule = BackfaceRule::zeroSample;
     LeakGuard guard = LeakGuard::moments;
     FieldRules rules = FieldRules::measured;
-    std::uint64_t seed = 1;  ///< of the per-frame ray rotation and the storage dither
+    /// Points on emissive triangles that a probe looks at in each update besides its rays (Tracer::emitters), 0..16;
+    /// 0: light of a lamp comes by rays that happen to meet it. FieldRules::paper: none, as in the paper.
+    int emitterSamples = 4;
+    std::uint64_t seed = 1;  ///< of the per-frame ray rotation, the emitter samples and the storage dither
 };
 
 /// What one ray of one probe brought home. This is the seam for engines with a ray tracer of their own.

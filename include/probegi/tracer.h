@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "probegi/context.h"
 #include "probegi/scene.h"
@@ -42,6 +43,36 @@ struct Surface {
     bool backface = false;       ///< the back of a single-sided material: solid wall
 };
 
+/// A triangle that sends light, in world space.
+struct EmissiveTriangle {
+    glm::vec3 corner{0.0f};      ///< metres
+    std::uint32_t upTo = 0;      ///< share of all power of this triangle and those before it, times 2^32 - 1
+    glm::vec3 edge1{0.0f};       ///< to the second corner; the front is where cross(edge1, edge2) points
+    std::int32_t material = -1;  ///< as Surface::material of its hits, >= 0
+    glm::vec3 edge2{0.0f};       ///< to the third corner
+};
+
+/// The surfaces of a tracer that send light, so that a probe can look at them instead of waiting for its rays to meet
+/// them. A triangle is chosen with probability proportional to its area times the mean luminance of its material: how
+/// likely a point was to be chosen then follows from the material of a hit, without knowing which triangle it was.
+struct EmitterSet {
+    std::vector<EmissiveTriangle> triangles;  ///< empty: nothing to look at
+    std::vector<float>
+        luminance;              ///< by material: of its emission, mean over its area, W sr^-1 m^-2; 0: not in the set
+    float inversePower = 0.0f;  ///< 1 over the sum of area times luminance; 0 where the set is empty
+
+    bool empty() const noexcept { return triangles.empty(); }
+    /// Density per square metre of choosing a point of this material; 0 where it is never chosen.
+    float density(std::int32_t material) const noexcept {
+        return std::size_t(material) < luminance.size() ? luminance[std::size_t(material)] * inversePower : 0.0f;
+    }
+};
+
+/// Fills what follows from triangles (corners, edges, materials) and `luminance`, which must have an entry for each of
+/// their materials. Every surface of a material whose luminance is not 0 must be among the triangles. Triangles that
+/// send nothing are kept and never chosen; where none sends anything the set is empty.
+EmitterSet makeEmitterSet(std::vector<EmissiveTriangle> triangles, std::vector<float> luminance);
+
 /// The first axis of the pipeline: what a ray hits. Implementations are immutable once made and safe to use from
 /// many threads at once. Batches may have any length; the two spans must be equally long.
 class Tracer {
@@ -55,6 +86,9 @@ public:
     virtual void surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const = 0;
     /// Of everything that can be hit.
     virtual Bounds bounds() const = 0;
+    /// The emitters that are worth looking at, for FieldDesc::emitterSamples; null: the tracer knows none. Lives as
+    /// long as the tracer.
+    virtual const EmitterSet* emitters() const { return nullptr; }
 };
 
 /// The lights that are not surfaces: punctual lights and the sky.

@@ -7,7 +7,7 @@
 #include "core/parallel.h"
 #include "kernels/irradiance_decoding.h"
 #include "kernels/storage.h"
-#include "surface/probe_trace.h"
+#include "surface/probe_emitters.h"
 
 namespace probegi {
 
@@ -53,11 +53,11 @@ FieldView CpuField::view(const FieldDesc& desc) const noexcept {
 }
 
 void CpuField::blend(const UpdateFrame& frame, std::span<const RayDatum> rayData,
-                     std::span<const FixedRayDatum> fixedRays) {
+                     std::span<const FixedRayDatum> fixedRays, std::span<const kernels::EmitterLight> emitters) {
     makeBlendWeights(m_context, frame.desc, frame.directions, m_weights);
     BlendFrame how{frame.hysteresis, frame.linear, frame.ditherSeed};
     if (frame.windows) how.steps = m_filter.chooseWindows(m_context, frame, m_layout, rayData, fixedRays, m_storage);
-    blendProbes(m_context, frame.desc, m_layout, m_weights, rayData, how, m_storage);
+    blendProbes(m_context, frame.desc, m_layout, m_weights, rayData, how, m_storage, emitters);
     if (frame.windows)
         m_filter.advance(m_context, frame, m_storage);
     else
@@ -67,7 +67,7 @@ void CpuField::blend(const UpdateFrame& frame, std::span<const RayDatum> rayData
 Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, std::span<const RayDatum> rayData,
                                      std::span<const FixedRayDatum> fixedRays) {
     const auto start = Clock::now();
-    blend(frame, rayData, fixedRays);
+    blend(frame, rayData, fixedRays, {});
     const double elapsed = millisecondsSince(start);
     return UpdateTimes{0, 0, elapsed, elapsed};
 }
@@ -83,10 +83,13 @@ Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, const Tracer& tra
         bounces = [&](std::span<const FieldQuery> queries, std::span<glm::vec3> out) {
             queryIrradiance(last, queries, out);
         };
+    const EmitterSearch emitters = emitterSearch(frame.desc, tracer, frame.ditherSeed);
     traceProbes(m_context, frame.desc.grid, {frame.directions, frame.fixedDirections}, tracer, lighting, bounces,
-                {m_rayData, m_fixedRays}, sums);
+                emitters, {m_rayData, m_fixedRays}, sums);
+    m_emitterLights.resize(m_layout.probes * std::size_t(emitters.looks));
+    if (emitters) lookAtEmitters(m_context, frame.desc.grid, emitters, tracer, m_emitterLights, sums);
     const double traced = millisecondsSince(start);
-    blend(frame, m_rayData, m_fixedRays);
+    blend(frame, m_rayData, m_fixedRays, m_emitterLights);
 
     // Stages of different threads overlap: the wall time of tracing and shading is split in their proportion.
     const double sum = std::max(1.0, double(sums.traceNs + sums.shadeNs));
@@ -132,8 +135,8 @@ FieldMemory CpuField::memory() const noexcept {
     return {bytes(m_storage.irradiance), bytes(m_storage.visibility),
             bytes(m_storage.filters) + bytes(m_storage.backfaceShare) + bytes(m_irradianceTaps) +
                 bytes(m_visibilityTaps) + sizeof(*this),
-            bytes(m_rayData) + bytes(m_fixedRays) + bytes(m_weights.irradiance) + bytes(m_weights.visibility) +
-                m_filter.bytes()};
+            bytes(m_rayData) + bytes(m_fixedRays) + bytes(m_emitterLights) + bytes(m_weights.irradiance) +
+                bytes(m_weights.visibility) + m_filter.bytes()};
 }
 
 float CpuField::probeBackfaceShare(int probe) const noexcept {

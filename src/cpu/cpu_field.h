@@ -31,7 +31,8 @@ public:
 
 private:
     FieldView view(const FieldDesc& desc) const noexcept;
-    void blend(const UpdateFrame& frame, std::span<const RayDatum> rayData, std::span<const FixedRayDatum> fixedRays);
+    void blend(const UpdateFrame& frame, std::span<const RayDatum> rayData, std::span<const FixedRayDatum> fixedRays,
+               std::span<const kernels::EmitterLight> emitters);
 
     Context m_context;
     FieldDesc m_desc;  // as it was made: sizes, not the guard
@@ -41,6 +42,7 @@ private:
     std::vector<RayDatum> m_rayData;
     std::vector<FixedRayDatum> m_fixedRays;
     TemporalFilter m_filter;
+    std::vector<kernels::EmitterLight> m_emitterLights;
     BlendWeights m_weights;
     mutable std::atomic<std::uint64_t> m_fallbacks{0};
 };

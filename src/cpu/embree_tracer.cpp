@@ -4,6 +4,7 @@
 #include "cpu/embree_packets.h"
 #include "cpu/embree_scene.h"
 #include "probegi/tracer.h"
+#include "surface/emitters.h"
 #include "surface/surface_shader.h"
 
 namespace probegi {
@@ -15,8 +16,10 @@ constexpr float kCoherentSpread = 1.0f / 64.0f;
 
 class EmbreeTracer final : public Tracer {
 public:
-    explicit EmbreeTracer(std::unique_ptr<EmbreeScene> scene)
-        : m_scene(std::move(scene)), m_originSpread(kCoherentSpread * glm::length(m_scene->bounds().size())) {}
+    EmbreeTracer(std::unique_ptr<EmbreeScene> scene, EmitterSet emitters)
+        : m_scene(std::move(scene)),
+          m_emitters(std::move(emitters)),
+          m_originSpread(kCoherentSpread * glm::length(m_scene->bounds().size())) {}
 
     void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override {
         assert(rays.size() == hits.size());
@@ -35,6 +38,7 @@ public:
     }
 
     Bounds bounds() const override { return m_scene->bounds(); }
+    const EmitterSet* emitters() const override { return &m_emitters; }
 
 private:
     EmbreePackets packets() const { return {m_scene->handle(), m_originSpread, m_scene->instanced()}; }
@@ -49,14 +53,16 @@ private:
     }
 
     std::unique_ptr<EmbreeScene> m_scene;
+    EmitterSet m_emitters;
     float m_originSpread;
 };
 
 }  // namespace
 
 Result<std::unique_ptr<Tracer>> makeEmbreeTracer(const Context& context, const Scene& scene, const ScenePose& pose) {
-    return EmbreeScene::create(context, scene, pose).map([](std::unique_ptr<EmbreeScene> made) {
-        return std::unique_ptr<Tracer>(std::make_unique<EmbreeTracer>(std::move(made)));
+    return EmbreeScene::create(context, scene, pose).map([&](std::unique_ptr<EmbreeScene> made) {
+        return std::unique_ptr<Tracer>(
+            std::make_unique<EmbreeTracer>(std::move(made), EmitterGeometry(scene, pose).placed()));
     });
 }
 

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 
 #include "core/parallel.h"
+#include "cpu/emitter_blend.h"
 #include "cpu/matrix_product.h"
 #include "kernels/octahedral_texel.h"
 #include "kernels/probe_texel.h"
@@ -146,12 +147,15 @@ void makeBlendWeights(const Context& context, const FieldDesc& desc, std::span<c
 }
 
 void blendProbes(const Context& context, const FieldDesc& desc, const FieldLayout& layout, const BlendWeights& weights,
-                 std::span<const RayDatum> rayData, const BlendFrame& frame, FieldStorage& storage) {
+                 std::span<const RayDatum> rayData, const BlendFrame& frame, FieldStorage& storage,
+                 std::span<const kernels::EmitterLight> emitters) {
+    const EmitterBlend looks(desc.irradianceTexels, emitters, layout.probes);
     parallelFor(context, layout.probes, kBlock, [&](std::size_t begin, std::size_t end) {
         thread_local BlockInput in;
         thread_local Matrix irradiance, visibility, validity;
         gather(desc, layout, rayData.subspan(begin * layout.rays, (end - begin) * layout.rays), end - begin, in);
         multiply(in.radiance, weights.irradiance, irradiance);
+        looks.addTo(irradiance, begin, end);
         multiply(in.distance, weights.visibility, visibility);
         if (in.weighted) {
             multiply(in.valid, weights.irradiance, validity);

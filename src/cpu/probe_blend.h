@@ -5,6 +5,7 @@
 
 #include "cpu/field_storage.h"
 #include "field/hysteresis.h"
+#include "kernels/emitter_sampling.h"
 
 namespace probegi {
 
@@ -36,7 +37,9 @@ struct BlendFrame {
 
 /// Blends the ray data of all probes into the storage: weights x data, then encoding, hysteresis and storage.
 /// rayData is [probe][ray]. Values that are not finite count as 0 radiance and as the farthest distance.
+/// `emitters`: what the probes' looks at emitters brought, [probe][look], or nothing.
 void blendProbes(const Context& context, const FieldDesc& desc, const FieldLayout& layout, const BlendWeights& weights,
-                 std::span<const RayDatum> rayData, const BlendFrame& frame, FieldStorage& storage);
+                 std::span<const RayDatum> rayData, const BlendFrame& frame, FieldStorage& storage,
+                 std::span<const kernels::EmitterLight> emitters = {});
 
 }  // namespace probegi

@@ -42,7 +42,8 @@ Result<void> validateFieldDesc(const FieldDesc& d) {
         .and_then([&] { return checkRange("visibilityExponent", d.visibilityExponent, 1, 500); })
         .and_then([&] { return checkRange("selfShadowBias", d.selfShadowBias, 0, 2); })
         .and_then([&] { return checkRange("significantChange", d.significantChange, 0, 1); })
-        .and_then([&] { return checkRange("newDistribution", d.newDistribution, 0, 1); });
+        .and_then([&] { return checkRange("newDistribution", d.newDistribution, 0, 1); })
+        .and_then([&] { return checkRange("emitterSamples", d.emitterSamples, 0, 16); });
 }
 
 }  // namespace probegi

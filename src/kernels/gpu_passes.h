@@ -98,12 +98,14 @@ struct BlendPush {
     float significantChange;  // Listing 3
     float newDistribution;    // Listing 3
     uint ditherSeed;
-    int linear;     // 1: blendLinear
-    uvec2 steps;    // GpuProbeStep[probe]: each with its own hysteresis; 0: all with the above
-    uvec2 changes;  // out, where there are steps: TexelChange[block of texels][probe]
+    int linear;           // 1: blendLinear
+    uvec2 emitterLights;  // EmitterLight[probe][look]
+    int looks;            // at emitters, a probe; 0: none
+    uvec2 steps;          // GpuProbeStep[probe]: each with its own hysteresis; 0: all with the above
+    uvec2 changes;        // out, where there are steps: TexelChange[block of texels][probe]
 };
 
-// Probe rays (trace_probes.comp) and their shading (shade_probes.comp).
+// Probe rays (trace_probes.comp), their shading (shade_probes.comp), and looks at emitters (look_at_emitters.comp).
 struct TracePush {
     uvec2 directions;   // vec3[rays]
     uvec2 hits;         // Hit[ray][probe]
@@ -113,7 +115,10 @@ struct TracePush {
     int rays;           // that are blended
     int fixedRayCount;  // that come after them in directions and hits
     int probes;
-    int bounces;  // 1: the probes hold light of an earlier update
+    int bounces;          // 1: the probes hold light of an earlier update
+    int looks;            // at emitters, a probe; 0: none
+    uvec2 emitterLights;  // EmitterLight[probe][look]
+    uint emitterSeed;     // of the frame
 };
 
 // Irradiance at points (query.comp).
@@ -191,8 +196,8 @@ KERNELS_END
 
 #ifdef __cplusplus
 namespace probegi::kernels {
-static_assert(offsetof(SceneConstants, bvh) == 124 && sizeof(SceneConstants) == 156 && sizeof(LightingBlock) == 40);
-static_assert(sizeof(WeightsPush) == 56 && sizeof(BlendPush) == 84 && sizeof(TracePush) == 56);
+static_assert(offsetof(SceneConstants, bvh) == 140 && sizeof(SceneConstants) == 172 && sizeof(LightingBlock) == 40);
+static_assert(sizeof(WeightsPush) == 56 && sizeof(BlendPush) == 96 && sizeof(TracePush) == 72);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 28 && sizeof(PicturePush) == 96);
 static_assert(sizeof(FilterPush) == 76 && sizeof(GpuProbeStep) == 80);
 static_assert(sizeof(ToneMapPush) == 28 && sizeof(GpuSurface) == 76 && sizeof(GpuSample) == 100);

@@ -59,6 +59,16 @@ struct GpuMaterial {
     int metallicRoughnessTexture;
     int normalTexture;
     int emissiveTexture;
+    float emittedLuminance;  // EmitterSet::luminance
+};
+
+// probegi::EmissiveTriangle.
+struct GpuEmitter {
+    vec3 corner;
+    uint upTo;
+    vec3 edge1;
+    int material;
+    vec3 edge2;
 };
 
 struct GpuLight {
@@ -95,6 +105,9 @@ struct SceneAddresses {
     GpuSky sky;
     int lightCount;
     float magnitude;  // the largest absolute coordinate of the scene's bounds
+    uvec2 emitters;   // GpuEmitter
+    int emitterCount;
+    float inverseEmitterPower;  // EmitterSet's
 };
 
 KERNEL_CONST uint kTextureNearest = 16u;

@@ -3,7 +3,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "probegi/scene.h"
+#include "probegi/tracer.h"
 #include "reference/alias_table.h"
 #include "reference/random.h"
 
@@ -39,23 +39,15 @@ public:
     glm::vec3 emission(int material) const noexcept { return m_materials[std::size_t(material)].emission; }
 
 private:
-    struct Triangle {
-        glm::vec3 corner, edge1, edge2;
-        int material;
-    };
     struct EmissiveMaterial {
         glm::vec3 emission{0.0f};
-        float luminance = 0.0f;  ///< mean over the material
         float pdfArea = 0.0f;
         bool uniform = true;
         bool doubleSided = false;
     };
 
-    void collectMaterials(const Scene& scene);
-    void collectTriangles(const Primitive& primitive, const glm::mat4& toWorld);
-
     std::vector<EmissiveMaterial> m_materials;
-    std::vector<Triangle> m_triangles;
+    std::vector<EmissiveTriangle> m_triangles;
     AliasTable m_table;
 };
 

@@ -10,6 +10,7 @@
 #include "kernels/language.h"
 #include "scene/sky.h"
 #include "surface/lighting.h"
+#include "surface/probe_emitters.h"
 
 namespace probegi {
 
@@ -109,7 +110,7 @@ struct TaskOutput {
 };
 
 // Distances and the radiance that does not depend on other light; lists the hits that reflect.
-void resolveHits(const Lighting& lighting, TaskBuffers& b, const TaskOutput& out) {
+void resolveHits(const Lighting& lighting, const EmitterSearch& emitters, TaskBuffers& b, const TaskOutput& out) {
     b.lit.clear();
     for (std::uint32_t i = 0; i < b.rays.size(); ++i) {
         const Hit& hit = b.hits[i];
@@ -118,7 +119,9 @@ void resolveHits(const Lighting& lighting, TaskBuffers& b, const TaskOutput& out
         } else if (b.surfaces[i].backface) {
             out.set(i, glm::vec3(0), -hit.distance);
         } else {
-            out.set(i, b.surfaces[i].emission, hit.distance);
+            // Fixed rays see all of an emission: looks at emitters add nothing to them.
+            const float share = i < out.update.size() ? emitters.rayShare(b.surfaces[i].material, hit.distance) : 1.0f;
+            out.set(i, b.surfaces[i].emission * share, hit.distance);
             b.lit.push_back(i);
         }
     }
@@ -133,8 +136,8 @@ TaskOutput outputOf(const ProbeRayDirections& directions, const ProbeRayData& ou
 }  // namespace
 
 void traceProbes(const Context& context, const GridDesc& grid, const ProbeRayDirections& directions,
-                 const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces, const ProbeRayData& out,
-                 TraceTimes& times) {
+                 const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces,
+                 const EmitterSearch& emitters, const ProbeRayData& out, TraceTimes& times) {
     const float magnitude = sceneMagnitude(tracer.bounds());
     const std::size_t probesPerTask =
         std::max<std::size_t>(1, kRaysPerTask / (directions.update.size() + directions.fixed.size()));
@@ -147,7 +150,7 @@ void traceProbes(const Context& context, const GridDesc& grid, const ProbeRayDir
 
         tracer.surfaces(b.rays, b.hits, b.surfaces);
         const TaskOutput task = outputOf(directions, out, begin, end);
-        resolveHits(lighting, b, task);
+        resolveHits(lighting, emitters, b, task);
         queryBounces(bounces, b);
         gatherDirectLight(tracer, lighting, magnitude, b);
         for (std::size_t k = 0; k < b.lit.size(); ++k) {

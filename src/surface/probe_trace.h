@@ -17,6 +17,8 @@ struct TraceTimes {
 /// The field of the last update at points: E in W m^-2. Called from several threads at once.
 using BounceQuery = std::function<void(std::span<const FieldQuery>, std::span<glm::vec3>)>;
 
+struct EmitterSearch;
+
 /// Directions of a probe's rays, the same for all probes.
 struct ProbeRayDirections {
     std::span<const glm::vec3> update;  ///< of the rays that are blended
@@ -30,9 +32,10 @@ struct ProbeRayData {
 };
 
 /// Traces and shades the rays of all probes on the context's threads, with any tracer: closest hits, surfaces, punctual
-/// lights with shadow rays, emission, sky, and the light of earlier bounces (empty: none). Fills `out`.
+/// lights with shadow rays, emission (of update rays as far as `emitters` leaves it to them), sky, and the light of
+/// earlier bounces (empty: none). Fills `out`.
 void traceProbes(const Context& context, const GridDesc& grid, const ProbeRayDirections& directions,
-                 const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces, const ProbeRayData& out,
-                 TraceTimes& times);
+                 const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces,
+                 const EmitterSearch& emitters, const ProbeRayData& out, TraceTimes& times);
 
 }  // namespace probegi

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 
-#include "surface/probe_trace.h"
+#include "surface/probe_emitters.h"
 #include "vulkan/gpu_lighting_impl.h"
 
 namespace probegi::vulkan {
@@ -13,7 +13,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-static_assert(sizeof(RayDatum) == 16 && sizeof(FieldQuery) == 36, "shaders/ray_data.glsl, query.comp");
+static_assert(sizeof(RayDatum) == 16 && sizeof(FieldQuery) == 36 && sizeof(kernels::EmitterLight) == 24,
+              "shaders/ray_data.glsl, query.comp, emitter_lights.glsl");
 
 constexpr std::size_t kQueriesPerPiece = std::size_t(1) << 20;
 constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
@@ -70,12 +71,17 @@ const GpuLighting& GpuField::uploaded(const Lighting& lighting) const {
 }
 
 UpdateTimes GpuField::updateFrom(const UpdateFrame& frame, std::span<const RayDatum> rayData,
-                                 std::span<const FixedRayDatum> fixedRays) {
+                                 std::span<const FixedRayDatum> fixedRays,
+                                 std::span<const kernels::EmitterLight> lights) {
     const auto start = Clock::now();
     m_mirror.reset();
-    m_exchange.begin(rayData.size_bytes() + fixedRays.size_bytes(), 16);
+    m_exchange.begin(rayData.size_bytes() + fixedRays.size_bytes() + lights.size_bytes(), 16);
     RayAddresses addresses{.update = m_exchange.add(rayData)};
     if (!fixedRays.empty()) addresses.fixed = m_exchange.add(fixedRays);
+    if (!lights.empty()) {
+        addresses.emitterLights = m_exchange.add(lights);
+        addresses.looks = int(lights.size() / m_passes.layout().probes);
+    }
     m_exchange.run(
         [&](const Recorder& recorder) {
             m_profiler->recordReset(recorder.commands());
@@ -96,7 +102,7 @@ UpdateTimes GpuField::updateOnGpu(const UpdateFrame& frame, const GpuTracer& tra
         m_passes.recordUpdate(recorder, frame, tracer.scene(), lights, &*m_profiler);
     });
     m_updatePasses = orThrow(m_profiler->read());
-    return {sumOf(m_updatePasses, "trace"), sumOf(m_updatePasses, "shade"),
+    return {sumOf(m_updatePasses, "trace"), sumOf(m_updatePasses, "shade") + sumOf(m_updatePasses, "emitters"),
             sumOf(m_updatePasses, "weights") + sumOf(m_updatePasses, "windows") +
                 sumOf(m_updatePasses, "blend irradiance") + sumOf(m_updatePasses, "blend visibility") +
                 sumOf(m_updatePasses, "filter"),
@@ -106,7 +112,7 @@ UpdateTimes GpuField::updateOnGpu(const UpdateFrame& frame, const GpuTracer& tra
 Result<UpdateTimes> GpuField::update(const UpdateFrame& frame, std::span<const RayDatum> rayData,
                                      std::span<const FixedRayDatum> fixedRays) {
     const std::lock_guard lock(m_mutex);
-    return attempted("updating the field", [&] { return updateFrom(frame, rayData, fixedRays); });
+    return attempted("updating the field", [&] { return updateFrom(frame, rayData, fixedRays, {}); });
 }
 
 Result<UpdateTimes> GpuField::update(const UpdateFrame& frame, const Tracer& tracer, const Lighting& lighting) {
@@ -125,12 +131,15 @@ Result<UpdateTimes> GpuField::update(const UpdateFrame& frame, const Tracer& tra
                 orThrow(irradiance(frame.desc, queries, out));
             };
         TraceTimes sums;
+        const EmitterSearch emitters = emitterSearch(frame.desc, tracer, frame.ditherSeed);
         traceProbes(m_context, frame.desc.grid, {frame.directions, frame.fixedDirections}, tracer, lighting, bounces,
-                    {m_rayData, m_fixedRays}, sums);
+                    emitters, {m_rayData, m_fixedRays}, sums);
+        m_emitterLights.resize(m_passes.layout().probes * std::size_t(emitters.looks));
+        if (emitters) lookAtEmitters(m_context, frame.desc.grid, emitters, tracer, m_emitterLights, sums);
         const double traced = millisecondsSince(start);
         const double sum = std::max(1.0, double(sums.traceNs + sums.shadeNs));
         const std::lock_guard lock(m_mutex);
-        UpdateTimes times = updateFrom(frame, m_rayData, m_fixedRays);
+        UpdateTimes times = updateFrom(frame, m_rayData, m_fixedRays, m_emitterLights);
         times.trace = traced * double(sums.traceNs) / sum;
         times.shade = traced * double(sums.shadeNs) / sum;
         times.total = millisecondsSince(start);

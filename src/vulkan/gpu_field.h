@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "field/field_backend.h"
+#include "kernels/emitter_sampling.h"
 #include "vulkan/exchange.h"
 #include "vulkan/gpu_tracer.h"
 #include "vulkan/volume_mirror.h"
@@ -39,7 +40,8 @@ private:
     const GpuLighting& uploaded(const Lighting& lighting) const;
     UpdateTimes updateOnGpu(const UpdateFrame& frame, const GpuTracer& tracer, const Lighting& lighting);
     UpdateTimes updateFrom(const UpdateFrame& frame, std::span<const RayDatum> rayData,
-                           std::span<const FixedRayDatum> fixedRays);
+                           std::span<const FixedRayDatum> fixedRays,
+                           std::span<const kernels::EmitterLight> lights);
     /// guarded(), for passes over the volume.
     template <class Body>
     auto attempted(const char* doing, const Body& body) const;
@@ -58,6 +60,7 @@ private:
     mutable std::optional<GpuLighting> m_lighting;
     std::vector<RayDatum> m_rayData;         // of rays that another backend's tracer traced
     std::vector<FixedRayDatum> m_fixedRays;  // the same
+    std::vector<kernels::EmitterLight> m_emitterLights;
     std::vector<PassTime> m_updatePasses;
     mutable std::vector<PassTime> m_queryPasses;
 };

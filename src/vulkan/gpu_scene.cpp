@@ -47,7 +47,9 @@ GpuScene::Impl::Impl(const Context& context, const Device& d, const Scene& scene
     worldBounds = geometry.world.bounds();
     hasWorld = !geometry.world.empty();
     for (const SurfaceGroup& group : geometry.groups) groupBounds.push_back(group.bounds());
-    data = packScene(geometry, scene);
+    emitterGeometry = EmitterGeometry(scene, pose);
+    emitters = emitterGeometry.placed();
+    data = packScene(geometry, emitters, scene);
     upload();
     tracer = kind == TracerKind::rayQuery ? makeRayQuerySceneTracer(device, geometry, data, vertices.address())
                                           : makeBvhSceneTracer(context, device, geometry, staging);
@@ -71,6 +73,7 @@ void GpuScene::Impl::upload() {
     textures = staging.add(on, "textures", data.textures);
     texels = staging.add(on, "texels", data.texels);
     srgbTable = staging.add(on, "sRGB table", data.srgbTable);
+    emitterBuffer = staging.add(on, "emitters", data.emitters);
 }
 
 void GpuScene::Impl::writeSet() {
@@ -111,8 +114,18 @@ kernels::SceneConstants GpuScene::Impl::constants() const {
     c.scene.texels = packAddress(texels.address());
     c.scene.srgbTable = packAddress(srgbTable.address());
     c.scene.magnitude = sceneMagnitude(bounds);
+    c.scene.emitters = packAddress(emitterBuffer.address());
+    c.scene.emitterCount = int(emitters.triangles.size());
+    c.scene.inverseEmitterPower = emitters.inversePower;
     c.bvh = tracer->addresses();
     return c;
+}
+
+bool GpuScene::Impl::placeEmitters() {
+    bool moved = false;
+    for (const Placement& p : placements) moved = emitterGeometry.place(p.node, p.toWorld) || moved;
+    if (moved) emitters = emitterGeometry.placed();
+    return moved;
 }
 
 GpuScene::GpuScene(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
@@ -155,9 +168,12 @@ Result<void> GpuScene::recordPose(VkCommandBuffer commands, const ScenePose& pos
         for (const Placement& placement : placements) instances.push_back(packInstance(placement));
         m_impl->placements = std::move(placements);
         m_impl->bounds = m_impl->placedBounds();
+        std::vector<kernels::GpuEmitter> lamps;
+        if (m_impl->placeEmitters()) lamps = packEmitters(m_impl->emitters);
         const Recorder recorder(m_impl->device.impl(), commands);
         recorder.orderAll();
         recorder.write(m_impl->instances, std::as_bytes(std::span(instances)));
+        recorder.write(m_impl->emitterBuffer, std::as_bytes(std::span(lamps)));
         recorder.write(m_impl->constantsBuffer, bytesOf(m_impl->constants()));
         m_impl->tracer->recordPlacements(recorder, m_impl->placements);
         recorder.orderAll();
@@ -175,7 +191,7 @@ std::size_t GpuScene::bytes() const noexcept {
     const Impl& m = *m_impl;
     std::size_t sum = m.constantsBuffer.bytes() + m.tracer->bytes();
     for (const Buffer* buffer : {&m.vertices, &m.triangles, &m.uv1, &m.tangents, &m.meshes, &m.instances, &m.materials,
-                                 &m.textures, &m.texels, &m.srgbTable})
+                                 &m.textures, &m.texels, &m.srgbTable, &m.emitterBuffer})
         sum += buffer->bytes();
     return sum;
 }

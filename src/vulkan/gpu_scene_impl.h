@@ -1,5 +1,6 @@
 #pragma once
 
+#include "surface/emitters.h"
 #include "vulkan/scene_tracer.h"
 
 namespace probegi::vulkan {
@@ -12,6 +13,7 @@ struct GpuScene::Impl {
     std::string shaderSuffix() const { return tracer->shaderSuffix(); }
     kernels::SceneConstants constants() const;
     Bounds placedBounds() const;  // where the placements are now
+    bool placeEmitters();         // where the placements are now; returns whether any lamp is among them
 
     Device device;
     std::vector<Placement> placements;
@@ -19,7 +21,9 @@ struct GpuScene::Impl {
     Bounds worldBounds;  // of what is merged; meaningless without hasWorld
     bool hasWorld = false;
     std::vector<Bounds> groupBounds;  // in their own spaces
-    Buffer vertices, triangles, uv1, tangents, meshes, instances, materials, textures, texels, srgbTable;
+    EmitterGeometry emitterGeometry;
+    EmitterSet emitters;  // where they are now
+    Buffer vertices, triangles, uv1, tangents, meshes, instances, materials, textures, texels, srgbTable, emitterBuffer;
     Buffer constantsBuffer;
     std::unique_ptr<SceneTracer> tracer;
     vk::raii::DescriptorPool pool{nullptr};

@@ -54,6 +54,10 @@ GpuTracer::GpuTracer(const Context& context, const Device& device, const Scene& 
                      const GpuSceneDesc& desc)
     : m_device(device), m_scene(uploaded(context, device, scene, pose, desc)), m_exchange(device) {}
 
+const EmitterSet* GpuTracer::emitters() const {
+    return &m_scene.impl().emitters;
+}
+
 void GpuTracer::closestHits(std::span<const Ray> rays, std::span<Hit> hits) const {
     assert(rays.size() == hits.size());
     std::fill(hits.begin(), hits.end(), Hit());

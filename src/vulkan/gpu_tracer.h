@@ -18,6 +18,7 @@ public:
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override;
     void surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const override;
     Bounds bounds() const override { return m_scene.bounds(); }
+    const EmitterSet* emitters() const override;
 
     const Device& device() const noexcept { return m_device; }
     const GpuScene& scene() const noexcept { return m_scene; }

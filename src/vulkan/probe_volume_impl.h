@@ -11,10 +11,12 @@
 
 namespace probegi::vulkan {
 
-/// Where an update's ray data lie.
+/// Where an update's ray data lie, and what the looks at emitters brought.
 struct RayAddresses {
-    VkDeviceAddress update = 0;  ///< RayDatum[probe][ray]
-    VkDeviceAddress fixed = 0;   ///< FixedRayDatum[probe][ray]; 0 where the frame has no fixed rays
+    VkDeviceAddress update = 0;         ///< RayDatum[probe][ray]
+    VkDeviceAddress fixed = 0;          ///< FixedRayDatum[probe][ray]; 0 where the frame has no fixed rays
+    VkDeviceAddress emitterLights = 0;  ///< EmitterLight[probe][look]
+    int looks = 0;                      ///< a probe; 0: none
 };
 
 /// Probes in GPU memory and the passes over them. What an update needs to know of the frame comes from outside: from
@@ -28,8 +30,8 @@ public:
     /// Traces and shades the rays of all probes into rayData(), then blends it.
     void recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
                       const GpuLighting& lighting, Profiler* profiler);
-    /// Blends the ray data at addresses.
-    void recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& rays, Profiler* profiler);
+    /// Blends the data at addresses.
+    void recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data, Profiler* profiler);
     void recordQuery(const Recorder& recorder, const FieldDesc& desc, VkDeviceAddress queries,
                      VkDeviceAddress irradiance, std::uint32_t count, Profiler* profiler);
     /// Brings the constants up to date with the desc's guard, for whoever reads set() in passes of its own.
@@ -51,18 +53,18 @@ public:
 private:
     kernels::GpuVolume constants(LeakGuard guard) const;
     void writeSet();
-    void makeRayBuffers();
+    void makeRayBuffers(int looks);
     void beginUpdate(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler);
     void recordWeights(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler);
     void recordTrace(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
-                     const GpuLighting& lighting, Profiler* profiler);
+                     const GpuLighting& lighting, const RayAddresses& data, Profiler* profiler);
     /// From ray data on.
-    void recordRest(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& rays, Profiler* profiler);
-    void recordWindows(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& rays,
+    void recordRest(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data, Profiler* profiler);
+    void recordWindows(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
                        Profiler* profiler);
-    void recordFilter(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& rays, Profiler* profiler);
-    kernels::FilterPush filterPush(const UpdateFrame& frame, const RayAddresses& rays) const;
-    void recordBlend(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData, Profiler* profiler);
+    void recordFilter(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data, Profiler* profiler);
+    kernels::FilterPush filterPush(const UpdateFrame& frame, const RayAddresses& data) const;
+    void recordBlend(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data, Profiler* profiler);
 
     Device m_device;
     FieldDesc m_desc;
@@ -77,6 +79,7 @@ private:
     Buffer m_visibilityCounts;              // uint[texel]
     Buffer m_visibilityWeights;             // GpuRayWeight[entry][texel]
     Buffer m_hits, m_rayData, m_fixedRays;  // made by the first traced update
+    Buffer m_emitterLights;                 // made by the first with emitters
     vk::raii::DescriptorPool m_pool{nullptr};
     vk::raii::DescriptorSets m_sets{nullptr};
     std::optional<LeakGuard> m_recordedGuard;  // what the constants hold once all that was recorded has run

@@ -86,7 +86,7 @@ void packGroup(const SurfaceGroup& group, SceneData& data, std::vector<bool>& sh
 kernels::GpuMaterial packMaterial(const SurfaceMaterial& m) {
     return {
         m.baseColor, m.metallic, m.emission, m.roughness, m.normalScale, m.textureAlphaCutoff, m.doubleSided ? 1 : 0,
-        -1,          -1,         -1,         -1};
+        -1,          -1,         -1,         -1,          0.0f};
 }
 
 void reserve(const SceneGeometry& geometry, SceneData& data) {
@@ -103,7 +103,7 @@ void reserve(const SceneGeometry& geometry, SceneData& data) {
 
 }  // namespace
 
-SceneData packScene(const SceneGeometry& geometry, const Scene& scene) {
+SceneData packScene(const SceneGeometry& geometry, const EmitterSet& emitters, const Scene& scene) {
     SceneData data;
     reserve(geometry, data);
     std::vector<bool> shown(scene.materials.size(), false);
@@ -116,6 +116,7 @@ SceneData packScene(const SceneGeometry& geometry, const Scene& scene) {
         const Material& material = scene.materials[i];
         const SurfaceMaterial& surface = geometry.materials[i];
         kernels::GpuMaterial packed = packMaterial(surface);
+        packed.emittedLuminance = emitters.luminance[i];
         if (shown[i]) {
             packed.baseColorTexture = textures.add(material.baseColorTexture);
             packed.metallicRoughnessTexture = textures.add(material.metallicRoughnessTexture);
@@ -125,7 +126,16 @@ SceneData packScene(const SceneGeometry& geometry, const Scene& scene) {
         data.materials.push_back(packed);
     }
     for (int code = 0; code < 256; ++code) data.srgbTable.push_back(srgbToLinear(std::uint8_t(code)));
+    data.emitters = packEmitters(emitters);
     return data;
+}
+
+std::vector<kernels::GpuEmitter> packEmitters(const EmitterSet& emitters) {
+    std::vector<kernels::GpuEmitter> packed;
+    packed.reserve(emitters.triangles.size());
+    for (const EmissiveTriangle& t : emitters.triangles)
+        packed.push_back({t.corner, t.upTo, t.edge1, t.material, t.edge2});
+    return packed;
 }
 
 kernels::GpuInstance packInstance(const Placement& placement) {

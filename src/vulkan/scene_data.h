@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernels/gpu_scene.h"
+#include "surface/emitters.h"
 #include "surface/scene_geometry.h"
 #include "vulkan/address.h"
 
@@ -18,12 +19,13 @@ static_assert(sizeof(kernels::GpuInstance) == 136 && offsetof(kernels::GpuInstan
               offsetof(kernels::GpuInstance, normalToWorld) == 96 && offsetof(kernels::GpuInstance, group) == 132);
 static_assert(sizeof(kernels::GpuTexture) == 44 && offsetof(kernels::GpuTexture, rowU) == 16 &&
               offsetof(kernels::GpuTexture, flags) == 40);
-static_assert(sizeof(kernels::GpuMaterial) == 60 && offsetof(kernels::GpuMaterial, emission) == 16 &&
+static_assert(sizeof(kernels::GpuMaterial) == 64 && offsetof(kernels::GpuMaterial, emission) == 16 &&
               offsetof(kernels::GpuMaterial, doubleSided) == 40 &&
               offsetof(kernels::GpuMaterial, emissiveTexture) == 56);
+static_assert(sizeof(kernels::GpuEmitter) == 44 && offsetof(kernels::GpuEmitter, edge2) == 32);
 static_assert(sizeof(kernels::GpuLight) == 52 && offsetof(kernels::GpuLight, intensity) == 32);
 static_assert(sizeof(kernels::GpuSky) == 20 && offsetof(kernels::GpuSky, width) == 12);
-static_assert(sizeof(kernels::SceneAddresses) == 124 && offsetof(kernels::SceneAddresses, sky) == 96 &&
+static_assert(sizeof(kernels::SceneAddresses) == 140 && offsetof(kernels::SceneAddresses, sky) == 96 &&
               offsetof(kernels::SceneAddresses, magnitude) == 120);
 
 /// A SceneGeometry as records and raw arrays, each to become one buffer (kernels::SceneAddresses names them). Arrays
@@ -39,10 +41,13 @@ struct SceneData {
     std::vector<kernels::GpuTexture> textures;
     std::vector<std::uint32_t> texels;  ///< RGBA8 of every image that a triangle shows, each image once
     std::vector<float> srgbTable;       ///< 256 values
+    std::vector<kernels::GpuEmitter> emitters;
 };
 
-/// The geometry must have been gathered from the scene.
-SceneData packScene(const SceneGeometry& geometry, const Scene& scene);
+/// Geometry and emitters must have been gathered from the scene.
+SceneData packScene(const SceneGeometry& geometry, const EmitterSet& emitters, const Scene& scene);
+
+std::vector<kernels::GpuEmitter> packEmitters(const EmitterSet& emitters);
 
 /// One record of SceneData::instances: for placements that move.
 kernels::GpuInstance packInstance(const Placement& placement);

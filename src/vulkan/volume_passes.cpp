@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "kernels/gpu_passes.h"
+#include "surface/probe_emitters.h"
 #include "vulkan/errors.h"
 #include "vulkan/gpu_lighting_impl.h"
 #include "vulkan/gpu_scene_impl.h"
@@ -142,10 +143,14 @@ FieldMemory VolumePasses::memory() const noexcept {
     return {m_irradiance.bytes(), m_visibility.bytes(),
             m_states.bytes() + m_filters.bytes() + m_constants.bytes() + m_directions.bytes(),
             m_irradianceWeights.bytes() + m_visibilityCounts.bytes() + m_visibilityWeights.bytes() + m_hits.bytes() +
-                m_rayData.bytes() + m_fixedRays.bytes() + m_steps.bytes() + m_changes.bytes()};
+                m_rayData.bytes() + m_fixedRays.bytes() + m_emitterLights.bytes() + m_steps.bytes() +
+                m_changes.bytes()};
 }
 
-void VolumePasses::makeRayBuffers() {
+void VolumePasses::makeRayBuffers(int looks) {
+    if (looks > 0 && !m_emitterLights)
+        m_emitterLights = Buffer(m_device.impl(), "emitter lights",
+                                 m_layout.probes * std::size_t(looks) * sizeof(kernels::EmitterLight), kAddressed);
     if (m_rayData) return;
     const std::size_t rays = m_layout.probes * m_layout.rays, fixed = m_layout.probes * std::size_t(m_desc.fixedRays);
     Buffer hits(m_device.impl(), "probe ray hits", (rays + fixed) * sizeof(Hit), kAddressed);
@@ -203,7 +208,7 @@ void VolumePasses::recordWeights(const Recorder& recorder, const UpdateFrame& fr
 }
 
 void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
-                               const GpuLighting& lighting, Profiler* profiler) {
+                               const GpuLighting& lighting, const RayAddresses& data, Profiler* profiler) {
     const std::uint64_t rays = std::uint64_t(m_layout.probes) * (m_layout.rays + frame.fixedDirections.size());
     const std::string tracer = scene.impl().shaderSuffix();
     recorder.bindScene(scene.impl().set());
@@ -215,7 +220,10 @@ void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& fram
                                      .rays = int(m_layout.rays),
                                      .fixedRayCount = int(frame.fixedDirections.size()),
                                      .probes = int(m_layout.probes),
-                                     .bounces = frame.bounces ? 1 : 0});
+                                     .bounces = frame.bounces ? 1 : 0,
+                                     .looks = data.looks,
+                                     .emitterLights = packAddress(data.emitterLights),
+                                     .emitterSeed = frame.ditherSeed});
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "trace");
         recorder.dispatchOver("trace_probes" + tracer, rays);
@@ -225,12 +233,16 @@ void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& fram
         const PassScope scope(recorder, m_device.impl(), profiler, "shade");
         recorder.dispatchOver("shade_probes" + tracer, rays);
     }
+    if (data.looks > 0) {
+        const PassScope scope(recorder, m_device.impl(), profiler, "emitters");
+        recorder.dispatchOver("look_at_emitters" + tracer, m_layout.probes * std::uint64_t(data.looks));
+    }
     recorder.computeToCompute();
 }
 
-void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData,
+void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
                                Profiler* profiler) {
-    recorder.push(kernels::BlendPush{.rayData = packAddress(rayData),
+    recorder.push(kernels::BlendPush{.rayData = packAddress(data.update),
                                      .irradianceWeights = packAddress(m_irradianceWeights.address()),
                                      .visibilityCounts = packAddress(m_visibilityCounts.address()),
                                      .visibilityWeights = packAddress(m_visibilityWeights.address()),
@@ -243,6 +255,8 @@ void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& fram
                                      .newDistribution = frame.desc.newDistribution,
                                      .ditherSeed = frame.ditherSeed,
                                      .linear = frame.linear ? 1 : 0,
+                                     .emitterLights = packAddress(data.emitterLights),
+                                     .looks = data.looks,
                                      .steps = frame.windows ? packAddress(m_steps.address()) : kernels::uvec2(0),
                                      .changes = packAddress(m_changes.address())});
     {
@@ -257,31 +271,31 @@ void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& fram
     }
 }
 
-void VolumePasses::recordWindows(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& rays,
+void VolumePasses::recordWindows(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
                                  Profiler* profiler) {
     if (!frame.windows) return;
     const PassScope scope(recorder, m_device.impl(), profiler, "windows");
-    recorder.push(filterPush(frame, rays));
+    recorder.push(filterPush(frame, data));
     recorder.dispatchOver("probe_lag", m_layout.probes);
     recorder.computeToCompute();
     recorder.dispatchOver("probe_windows", m_layout.probes);
     recorder.computeToCompute();
 }
 
-void VolumePasses::recordFilter(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& rays,
+void VolumePasses::recordFilter(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
                                 Profiler* profiler) {
     const PassScope scope(recorder, m_device.impl(), profiler, "filter");
     recorder.computeToCompute();
-    recorder.push(filterPush(frame, rays));
+    recorder.push(filterPush(frame, data));
     recorder.dispatchOver("probe_filter", m_layout.probes);
 }
 
-kernels::FilterPush VolumePasses::filterPush(const UpdateFrame& frame, const RayAddresses& rays) const {
+kernels::FilterPush VolumePasses::filterPush(const UpdateFrame& frame, const RayAddresses& data) const {
     const bool own = frame.fixedDirections.empty();
     return {.steps = packAddress(m_steps.address()),
             .filters = packAddress(m_filters.address()),
             .changes = packAddress(m_changes.address()),
-            .rayData = packAddress(own ? rays.update : rays.fixed),
+            .rayData = packAddress(own ? data.update : data.fixed),
             .directions = packAddress(m_directions.address() + m_layout.rays * sizeof(glm::vec3)),
             .rays = int(own ? m_layout.rays : frame.fixedDirections.size()),
             .probes = int(m_layout.probes),
@@ -311,26 +325,28 @@ void VolumePasses::beginUpdate(const Recorder& recorder, const UpdateFrame& fram
 
 void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
                                 const GpuLighting& lighting, Profiler* profiler) {
-    makeRayBuffers();
-    for (const char* shader : {"trace_probes", "shade_probes"})
+    const int looks = scene.impl().emitters.empty() ? 0 : emitterLooks(frame.desc);
+    makeRayBuffers(looks);
+    for (const char* shader : {"trace_probes", "shade_probes", "look_at_emitters"})
         m_device.impl().pipelines->get(shader + scene.impl().shaderSuffix());
+    const RayAddresses data{m_rayData.address(), m_fixedRays.address(), m_emitterLights.address(), looks};
     beginUpdate(recorder, frame, profiler);
-    recordTrace(recorder, frame, scene, lighting, profiler);
-    recordRest(recorder, frame, {m_rayData.address(), m_fixedRays.address()}, profiler);
+    recordTrace(recorder, frame, scene, lighting, data, profiler);
+    recordRest(recorder, frame, data, profiler);
 }
 
-void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& rays,
+void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
                                 Profiler* profiler) {
     beginUpdate(recorder, frame, profiler);
     recorder.computeToCompute();
-    recordRest(recorder, frame, rays, profiler);
+    recordRest(recorder, frame, data, profiler);
 }
 
-void VolumePasses::recordRest(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& rays,
+void VolumePasses::recordRest(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
                               Profiler* profiler) {
-    recordWindows(recorder, frame, rays, profiler);
-    recordBlend(recorder, frame, rays.update, profiler);
-    recordFilter(recorder, frame, rays, profiler);
+    recordWindows(recorder, frame, data, profiler);
+    recordBlend(recorder, frame, data, profiler);
+    recordFilter(recorder, frame, data, profiler);
     recorder.orderAll();
 }
 

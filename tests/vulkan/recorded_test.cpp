@@ -150,6 +150,38 @@ TEST_F(VulkanRecorded, lightsThatChangeAreThoseThatWereMade) {
     EXPECT_NE(valuesOf(before), valuesOf(after));
 }
 
+// The Cornell box' lamp slides to another place and grows: probes look for it where it is.
+TEST_F(VulkanRecorded, lampsThatMoveAreLookedForWhereTheyAre) {
+    const vulkan::Device device = adopt();
+    Scene moving = world.scene;
+    int lamp = 0;
+    while (moving.nodes[std::size_t(lamp)].name != "lamp") ++lamp;
+    moving.animations = {
+        {lamp, AnimationPath::translation, Interpolation::linear, {0, 1}, {{0, 0, 0, 0}, {-1.2f, -1, 0.9f, 0}}},
+        {lamp, AnimationPath::scale, Interpolation::linear, {0, 1}, {{1, 1, 1, 0}, {1.2f, 1, 1.2f, 0}}}};
+    vulkan::GpuLighting none = *vulkan::GpuLighting::create(device, {});
+    for (const bool movable : {true, false}) {
+        vulkan::GpuScene scene = *vulkan::GpuScene::create(log, device, moving, poseAt(moving), {.movable = movable});
+        ProbeVolume volume = *ProbeVolume::create(device, world.desc);
+        const EngineBuffer result = answers();
+        engine.run([&](VkCommandBuffer commands) {
+            scene.recordUpload(commands);
+            none.recordUpload(commands);
+            volume.recordClear(commands);
+            EXPECT_TRUE(scene.recordPose(commands, poseAt(moving, 1.0f)));
+            EXPECT_TRUE(volume.recordUpdate(commands, scene, none));
+            EXPECT_TRUE(volume.recordQuery(commands, questions.address, result.address, count()));
+        });
+        // What was merged stays where it was, for looks as for rays.
+        const auto tracer = *makeEmbreeTracer(log, moving, poseAt(moving, movable ? 1.0f : 0.0f));
+        Field field = *Field::create(log, world.desc);
+        EXPECT_TRUE(field.update(*tracer, Lighting{}));
+        std::vector<glm::vec3> wanted(queries.size());
+        EXPECT_TRUE(field.irradiance(queries, wanted));
+        expectEqual(result, wanted, 4e-3f);
+    }
+}
+
 TEST_F(VulkanRecorded, theIncludeAnswersAsThePassDoes) {
     const vulkan::Device device = adopt();
     ProbeVolume volume = *ProbeVolume::create(device, world.desc);
@@ -199,8 +231,8 @@ TEST_F(VulkanRecorded, passesAreTimed) {
         EXPECT_GE(pass.milliseconds, 0.0);
         EXPECT_LT(pass.milliseconds, 1e5);
     }
-    EXPECT_EQ(names, (std::vector<std::string>{"weights", "trace", "shade", "blend irradiance", "blend visibility",
-                                               "query", "mine"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"weights", "trace", "shade", "emitters", "blend irradiance",
+                                               "blend visibility", "query", "mine"}));
     EXPECT_GT((*times)[1].milliseconds, 0.0);
     const auto first = few.read();
     ASSERT_TRUE(first);

@@ -14,7 +14,8 @@ Material textured(int image) {
 }
 
 vulkan::SceneData pack(const TestScene& s) {
-    return vulkan::packScene(SceneGeometry::gather(s.scene, s.pose), s.scene);
+    return vulkan::packScene(SceneGeometry::gather(s.scene, s.pose), EmitterGeometry(s.scene, s.pose).placed(),
+                             s.scene);
 }
 
 }  // namespace
@@ -69,6 +70,23 @@ TEST(PackScene, GroupsHaveTwoMeshesEach) {
     const glm::vec3 there = data.instances[1].toWorld * glm::vec4(1, 2, 3, 1);
     expectNear(there, glm::vec3(mirrored * glm::vec4(1, 2, 3, 1)), 1e-6f);
     expectNear(data.instances[1].toObject * glm::vec4(there, 1), {1, 2, 3}, 1e-6f);
+}
+
+TEST(PackScene, EmittersAndTheirMaterialsFollowTheSet) {
+    TestScene s;
+    Material lamp;
+    lamp.emission = {3, 3, 3};
+    s.add(quad());
+    s.add(quad(s.addMaterial(lamp)), glm::translate(glm::mat4(1.0f), {0, 5, 0}));
+    const vulkan::SceneData data = pack(s);
+    ASSERT_EQ(data.emitters.size(), 2u);
+    EXPECT_EQ(data.emitters[0].corner, glm::vec3(-1, 5, -1));
+    EXPECT_EQ(data.emitters[0].edge1, glm::vec3(0, 0, 2));
+    EXPECT_EQ(data.emitters[0].edge2, glm::vec3(2, 0, 2));
+    EXPECT_EQ(data.emitters[1].upTo, 0xffffffffu);
+    EXPECT_EQ(data.emitters[1].material, 1);
+    EXPECT_EQ(data.materials[0].emittedLuminance, 0.0f);
+    EXPECT_NEAR(data.materials[1].emittedLuminance, 3.0f, 1e-5f);
 }
 
 TEST(PackAddress, KeepsBothHalves) {

@@ -236,7 +236,9 @@ struct Asked {
             ADD_FAILURE() << runner.error().message;
             return;
         }
-        kernels::SceneAddresses addresses = upload(*runner, vulkan::packScene(geometry, scene.scene), lighting);
+        kernels::SceneAddresses addresses =
+            upload(*runner, vulkan::packScene(geometry, EmitterGeometry(scene.scene, scene.pose).placed(), scene.scene),
+                   lighting);
         addresses.magnitude = magnitude;
         answers = ask(*runner, addresses, questions);
     }

@@ -4,6 +4,7 @@
 // a thread holds a block of 4 texels x 4 probes in registers, so that seven loads of 16 floats feed 48 multiply-adds.
 // (A GPU's shared memory gives a register a clock, the same for all threads or not: a thread for a texel of eight
 // probes would read 25 floats for 24 multiply-adds.)
+#include "emitter_lights.glsl"
 #include "filter.glsl"
 #include "ray_data.glsl"
 #include "volume.glsl"
@@ -83,6 +84,18 @@ void store(int probe, int texel, vec3 newMean, inout TexelChange change) {
     }
 }
 
+// Mean radiance that the looks at emitters add to a texel.
+vec3 fromEmitters(int probe, int texel) {
+    const int size = probegiVolume.irradianceTexels;
+    const vec3 n = octTexelDirection(texel % size, texel / size, size);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < push.looks; ++i) {
+        const EmitterLight l = EmitterLights(push.emitterLights).at[probe * push.looks + i];
+        sum += irradianceWeight(n, l.direction) * l.light;
+    }
+    return sum;
+}
+
 void storeBackfaceShare(int local, int probe) {
     uint sum = 0;
     for (int i = 0; i < kRays; ++i) sum += counts[local / 4][i][local % 4];
@@ -132,7 +145,8 @@ void main() {
             const int texel = firstTexel + myTexel + kTexelThreads * t;
             const int probe = firstProbe + 4 * myFour + p;
             if (texel >= texels || probe >= push.probes) continue;
-            const vec4 mean = vec4(sum[t][0][p], sum[t][1][p], sum[t][2][p], sum[t][3][p]);
+            vec4 mean = vec4(sum[t][0][p], sum[t][1][p], sum[t][2][p], sum[t][3][p]);
+            mean.xyz += fromEmitters(probe, texel);
             store(probe, texel,
                   kExcludeBackfaces == 0 ? mean.xyz
                                          : vec3(withoutBackfaces(mean.x, mean.w), withoutBackfaces(mean.y, mean.w),

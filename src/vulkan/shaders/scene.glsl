@@ -51,6 +51,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Sce
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SceneFloats {
     float at[];
 };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SceneEmitters {
+    GpuEmitter at[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SceneLights {
     GpuLight at[];
 };
@@ -115,6 +118,11 @@ GpuTexture sceneTexture(int index) {
 
 GpuMaterial sceneMaterial(uint index) {
     return SceneMaterials(PROBEGI_SCENE.materials).at[index];
+}
+
+// EmitterSet::density.
+float emitterPerArea(int material) {
+    return SceneMaterials(PROBEGI_SCENE.materials).at[material].emittedLuminance * PROBEGI_SCENE.inverseEmitterPower;
 }
 
 // The mesh of a hit.

@@ -8,6 +8,7 @@
 
 #include "kernels/bounce.h"
 #include "kernels/colour.h"
+#include "kernels/emitter_sampling.h"
 
 layout(push_constant, scalar) uniform Push {
     TracePush push;
@@ -29,13 +30,20 @@ vec3 punctualIrradiance(Surface surface) {
     return e;
 }
 
-RayLight shade(Ray ray, Hit hit) {
+// Of an emission that an update ray met; looks at emitters bring the rest. Fixed rays see all of it.
+float rayShare(Surface surface, float distance, bool isFixed) {
+    if (push.looks == 0 || isFixed) return 1.0;
+    return rayEmissionShare(push.rays, push.looks, emitterPerArea(surface.material), distance);
+}
+
+RayLight shade(Ray ray, Hit hit, bool isFixed) {
     if (hit.primitive < 0) return RayLight(skyRadianceAt(ray.direction), vec3(0.0), kNoHitDistance);
     const Surface surface = surfaceAt(ray, hit);
     if (surface.backface) return RayLight(vec3(0.0), vec3(0.0), -hit.distance);
     vec3 bounced = vec3(0.0);
     if (push.bounces != 0) bounced = probegiIrradiance(surface.position, surface.shadingNormal, -ray.direction);
-    return RayLight(surface.emission + bounceRadiance(surface.albedo, punctualIrradiance(surface)),
+    return RayLight(rayShare(surface, hit.distance, isFixed) * surface.emission +
+                        bounceRadiance(surface.albedo, punctualIrradiance(surface)),
                     bounceRadiance(surface.albedo, bounced), hit.distance);
 }
 
@@ -48,7 +56,7 @@ void main() {
     const vec3 origin =
         probePlace(gpuProbeCell(probe, probegiVolume.counts), probegiVolume.origin, probegiVolume.spacing);
     const Ray ray = Ray(origin, 0.0, Vec3s(push.directions).at[rayIndex], kNoHitDistance);
-    const RayLight light = shade(ray, Hits(push.hits).at[index]);
+    const RayLight light = shade(ray, Hits(push.hits).at[index], rayIndex >= push.rays);
     if (rayIndex < push.rays)
         RayData(push.rayData).at[probe * push.rays + rayIndex] = RayDatum(light.direct + light.bounced, light.distance);
     else

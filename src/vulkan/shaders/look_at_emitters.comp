@@ -1,0 +1,64 @@
+// What the probes' looks at emitters bring home, the steps of src/surface/probe_emitters.cpp: choose a point, trace
+// towards it, see what it sends. Neighbouring threads take the same look of neighbouring probes.
+// variants: bvh=TRACER_BVH ray_query=TRACER_RAY_QUERY
+#include "emitter_lights.glsl"
+#include "rays.glsl"
+#include "scene_set.glsl"
+#include "volume.glsl"
+
+#include "kernels/probe_blend.h"
+
+layout(push_constant, scalar) uniform Push {
+    TracePush push;
+};
+
+// Number of the first triangle whose numbers reach `choice`.
+int chosenEmitter(SceneEmitters emitters, uint choice) {
+    int low = 0;
+    int high = PROBEGI_SCENE.emitterCount - 1;
+    while (low < high) {
+        const int middle = (low + high) / 2;
+        if (emitters.at[middle].upTo < choice)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+// What arrives from the point; nothing where something else is in between.
+vec3 arriving(vec3 probe, EmitterAim aim, int material) {
+    if (!(aim.cosine > 0.0)) return vec3(0.0);
+    const float offset = rayOffset(probe + aim.direction * aim.distance, PROBEGI_SCENE.magnitude);
+    const float tolerance = emitterTolerance(aim, offset);
+    const Ray ray = Ray(probe, 0.0, aim.direction, aim.distance + tolerance);
+    const Hit hit = closestHit(ray);
+    if (hit.primitive < 0 || !(abs(hit.distance - aim.distance) <= tolerance)) return vec3(0.0);
+    const Surface surface = surfaceAt(ray, hit);
+    if (surface.backface || surface.material != material) return vec3(0.0);
+    return vec3(safeRadiance(surface.emission.x), safeRadiance(surface.emission.y), safeRadiance(surface.emission.z));
+}
+
+EmitterLight look(int probe, uint index) {
+    SceneEmitters emitters = SceneEmitters(PROBEGI_SCENE.emitters);
+    const uint seed = emitterSeed(push.emitterSeed, uint(probe));
+    const uint choice = emitterChoice(seed, index, uint(push.looks));
+    const int chosen = chosenEmitter(emitters, choice);
+    const GpuEmitter emitter = emitters.at[chosen];
+    const uint below = chosen == 0 ? 0u : emitters.at[chosen - 1].upTo;
+    const vec3 origin =
+        probePlace(gpuProbeCell(probe, probegiVolume.counts), probegiVolume.origin, probegiVolume.spacing);
+    const EmitterAim aim = aimAtEmitter(origin, emitter.corner, emitter.edge1, emitter.edge2,
+                                        emitterBarycentric(seed, index, choice, below, emitter.upTo));
+    const float factor = emitterLightFactor(push.rays, push.looks, emitterPerArea(emitter.material), aim);
+    return EmitterLight(aim.direction, factor * arriving(origin, aim, emitter.material));
+}
+
+void main() {
+    const uint index = globalIndex();
+    if (index >= uint(push.probes) * uint(push.looks)) return;
+    const int probe = int(index % uint(push.probes));
+    const uint number = index / uint(push.probes);
+    useSceneOnly();
+    EmitterLights(push.emitterLights).at[uint(probe) * uint(push.looks) + number] = look(probe, number);
+}
