@@ -19,11 +19,12 @@ namespace {
 
 constexpr int kPoints = 1500;
 constexpr int kPathsPerPoint = 1024;
-constexpr int kOpenRays = 32;        ///< that decide on which side of a surface the open lies
-constexpr double kInMatter = 0.25;   ///< of the hits are backfaces: the point looks at the inside of matter
-constexpr double kDarkShare = 0.1;   ///< of the mean light, below which a ratio is left out
-constexpr float kTolerance = 0.01f;  ///< of converge()
-constexpr int kMostUpdates = 128;    ///< of converge()
+constexpr int kOpenRays = 32;          ///< that decide on which side of a surface the open lies
+constexpr double kInMatter = 0.25;     ///< of the hits are backfaces: the point looks at the inside of matter
+constexpr double kHiddenShare = 0.01;  ///< of the mean light, below which nobody sees the place: hulls, insides
+constexpr double kDarkShare = 0.1;     ///< of the mean light, below which a ratio is left out
+constexpr float kTolerance = 0.01f;    ///< of converge()
+constexpr int kMostUpdates = 128;      ///< of converge()
 constexpr int kPlainUpdates = 300;
 
 double luminance(glm::vec3 rgb) {
@@ -137,24 +138,29 @@ Result<SurfacePoints> traceSurfacePoints(const Context& context, const tool::Loa
 }
 
 SurfaceError compareAtSurfaces(const std::vector<double>& field, const SurfacePoints& points) {
+    double all = 0;
+    for (const double light : points.truth) all += light / double(std::max<std::size_t>(1, field.size()));
     double light = 0, truth = 0, squares = 0;
+    std::size_t seen = 0;
     for (std::size_t i = 0; i < field.size(); ++i) {
+        if (points.truth[i] <= kHiddenShare * all) continue;
+        ++seen;
         light += field[i];
         truth += points.truth[i];
         squares += std::pow(field[i] - points.truth[i], 2) - std::pow(points.standardError[i], 2);
     }
-    const double mean = truth / double(std::max<std::size_t>(1, field.size()));
+    const double mean = truth / double(std::max<std::size_t>(1, seen));
     std::vector<double> ratios;
     for (std::size_t i = 0; i < field.size(); ++i)
         if (points.truth[i] > kDarkShare * mean) ratios.push_back(field[i] / points.truth[i]);
     const tool::Percentiles p = tool::percentiles(ratios);
     SurfaceError error;
-    error.mean = light / truth;
-    error.rms = std::sqrt(std::max(0.0, squares / double(field.size()))) / mean;
+    error.mean = truth > 0 ? light / truth : 0;
+    error.rms = std::sqrt(std::max(0.0, squares / double(std::max<std::size_t>(1, seen)))) / mean;
     error.low = p.low;
     error.median = p.median;
     error.high = p.high;
-    error.points = field.size();
+    error.points = seen;
     return error;
 }
 

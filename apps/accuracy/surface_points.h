@@ -16,8 +16,9 @@ struct SurfacePoints {
     std::vector<double> standardError;  ///< of truth, same unit
 };
 
-/// How the field answers there. The first two weigh every point by its light, so that dark corners, whose ratios mean
-/// little, do not decide.
+/// How the field answers there. Places with less than a hundredth of the mean light (the outside of a hull, the inside
+/// of a crown of leaves) are left out. The first two weigh every point by its light, so that dark corners, whose ratios
+/// mean little, do not decide.
 struct SurfaceError {
     double mean = 0;    ///< sum of the field's E over sum of the truth's
     double rms = 0;     ///< root of the mean squared difference over the mean truth; the truth's noise is taken out

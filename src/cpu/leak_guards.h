@@ -3,15 +3,18 @@
 #include <cmath>
 #include <cstdint>
 
+#include "cpu/footprint.h"
 #include "cpu/probe_query.h"
 #include "cpu/wide.h"
 
 namespace probegi {
 
-/// A leak guard is a type with one function:
+/// A leak guard is a type with two functions:
 ///     Real operator()(const FieldView&, const CageQuery&) const
-/// which says for each of the eight probes of the cage, 0..1, how far the point may use it. It is a template argument
-/// of the query, so that a guard costs what it does and nothing more.
+/// says for each of the eight probes of the cage, 0..1, how far the point may use it, and
+///     float between(const FieldView&, int probe, const Footprint&, float distance) const
+/// how far a probe sees another one that stands `distance` metres away, in the direction of a footprint of the
+/// visibility maps. It is a template argument of the query, so that a guard costs what it does and nothing more.
 struct CageQuery {
     std::array<std::int32_t, kernels::wide::kLanes> probes;  ///< linear indices
     kernels::wide::Real3 biasedPointFromProbe;  ///< from each probe to the point with the self-shadow bias, metres
@@ -20,9 +23,11 @@ struct CageQuery {
 /// The leaking baseline: every probe is as good as its place.
 struct NoGuard {
     kernels::wide::Real operator()(const FieldView&, const CageQuery&) const { return 1.0f; }
+    float between(const FieldView&, int, const Footprint&, float) const { return 1.0f; }
 };
 
-/// Chebyshev test on the probes' distance moments (sections 2.2 and 4.1).
+/// Chebyshev test on the probes' distance moments (sections 2.2 and 4.1), by one of kernels::kRules.
+template <int rules>
 struct MomentsGuard {
     kernels::wide::Real operator()(const FieldView& view, const CageQuery& cage) const {
         using namespace kernels::wide;
@@ -54,7 +59,12 @@ struct MomentsGuard {
             return (top + fy * (bottom - top)) * (1.0f / 65535.0f);
         };
         const Real distance = sqrt(d.x * d.x + d.y * d.y + d.z * d.z) * view.inverseMaxDistance;
-        return chebyshevWeight(bilinear(mean), bilinear(meanSquare), distance);
+        return chebyshevWeight(bilinear(mean), bilinear(meanSquare), distance, rules);
+    }
+
+    float between(const FieldView& view, int probe, const Footprint& towards, float distance) const {
+        const glm::vec2 moments = momentsAt(view, probe, towards);
+        return kernels::chebyshevWeight(moments.x, moments.y, distance * view.inverseMaxDistance, rules);
     }
 
 private:

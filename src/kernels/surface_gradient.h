@@ -1,0 +1,57 @@
+// From the light that a cage's probes see to the light at the surface. Probes behind a surface do not count, so its
+// light is read up to a cell in front of it, nearer to whatever lights it: 3 to 5 % too bright on average, far more
+// under a lamp. How light changes along the normal is known from the layer of probes beyond the cage's front, and what
+// that predicts for the way back to the surface is taken away. Hardly anything is ever added: where light seems to rise
+// towards a surface, the probe beyond is mostly in the shade of something else (measured: docs/accuracy.md).
+#ifndef PROBEGI_KERNELS_SURFACE_GRADIENT_H
+#define PROBEGI_KERNELS_SURFACE_GRADIENT_H
+
+#include "kernels/probe_query.h"
+
+KERNELS_BEGIN
+
+// The largest share of the (square root of the) light that is taken away.
+KERNEL_CONST float kMaxTaken = 0.5f;
+// The largest share that is added: as much as noise takes away where there is no gradient.
+KERNEL_CONST float kMaxAdded = 0.005f;
+// Weight of the pairs of probes at which their gradient is trusted in full.
+KERNEL_CONST float kTrustedWeight = 0.1f;
+// Lead of the normal's largest component over the next at which its axis counts in full.
+KERNEL_CONST float kAxisLead = 0.15f;
+
+// The axis of the grid along which a normal points most.
+KERNEL_FN int dominantAxis(vec3 normal) {
+    const vec3 a = abs(normal);
+    if (a.x >= a.y && a.x >= a.z) return 0;
+    return a.y >= a.z ? 1 : 2;
+}
+
+// How far that axis stands for the normal, 0..1: 0 where another takes over, so that round surfaces have no seams.
+KERNEL_FN float axisTrust(vec3 normal) {
+    const vec3 a = abs(normal);
+    const float largest = max(a.x, max(a.y, a.z));
+    const float smallest = min(a.x, min(a.y, a.z));
+    const float middle = a.x + a.y + a.z - largest - smallest;
+    return clamp((largest - middle) * (1.0f / kAxisLead), 0.0f, 1.0f);
+}
+
+// Cells along the axis by which the light was read in front of the surface; `ahead`: the weighted mean of the probes'
+// distance to the surface's plane, metres.
+KERNEL_FN float cellsAhead(float ahead, float axisSpacing, float normalOnAxis) {
+    return max(ahead, 0.0f) / (axisSpacing * abs(normalOnAxis));
+}
+
+// One channel at the surface. `root`: what the cage answers; `rise`: sum over the pairs of weight times what the probe
+// beyond has more than the one in front, both in the space of decodeToBlendSpace(); `pairWeight`: sum of the weights.
+// A steep rise is damped: light that falls by its own size within a cell is not linear.
+KERNEL_FN float rootAtSurface(float root, float rise, float pairWeight, float cells, float trust) {
+    if (pairWeight <= 0.0f || root <= 0.0f) return root;
+    const float slope = rise / pairWeight;
+    const float known = trust * min(1.0f, pairWeight * (1.0f / kTrustedWeight));
+    const float damped = slope * root / (max(slope, 0.0f) * 0.5f + root);
+    return root - clamp(damped * cells * known, -kMaxAdded * root, kMaxTaken * root);
+}
+
+KERNELS_END
+
+#endif
