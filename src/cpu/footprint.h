@@ -24,6 +24,17 @@ inline Footprint footprintOf(const TapTable& table, int size, glm::vec3 directio
     return {{taps[0], taps[1], taps[2], taps[3]}, {(1 - f.x) * (1 - f.y), f.x * (1 - f.y), (1 - f.x) * f.y, f.x * f.y}};
 }
 
+/// The four texels around an axis of the grid: the axes lie on corners of texels, since maps have an even size.
+using AxisTexels = std::array<std::uint16_t, 4>;
+
+/// `axis` 0 to 2, up or down it.
+inline const AxisTexels& axisTexels(const TapTable& table, int size, int axis, bool up) {
+    const int middle = size / 2, end = up ? size : 0;
+    const int x = axis == 0 || (axis == 2 && !up) ? (axis == 0 ? end : size) : middle;
+    const int y = axis == 1 || (axis == 2 && !up) ? (axis == 1 ? end : size) : middle;
+    return table[std::size_t(y * (size + 1) + x)];
+}
+
 /// Moments of distance / maxDistance that one probe stores at a footprint of the visibility maps.
 inline glm::vec2 momentsAt(const FieldView& view, int probe, const Footprint& f) {
     const std::size_t texels = std::size_t(view.desc->visibilityTexels) * std::size_t(view.desc->visibilityTexels);

@@ -99,47 +99,56 @@ glm::vec3 queryNeighbours(const FieldView& view, const FieldQuery& query, glm::v
 
 // What the eight probes around a point answer, and what the way back to the surface needs of it.
 struct CageAnswer {
-    CageQuery cage;
-    glm::ivec3 base;             // lowest probe
-    glm::vec3 alpha;             // of the point in the cage
-    std::array<Texel, 8> roots;  // of the probes
-    Real weight;                 // of the probes
-    Texel root;                  // weighted mean
-    float ahead;                 // weighted mean of the probes' distance to the surface's plane, metres
+    const CageQuery& cage;
+    const std::array<Texel, 8>& roots;  // of the probes
+    const Real& weight;                 // of the probes
+    glm::ivec3 base;                    // lowest probe
+    glm::vec3 alpha;                    // of the point in the cage
+    float ahead;                        // weighted mean of the probes' distance to the surface's plane, metres
 };
 
-// The cage's answer at the surface itself (kernels/surface_gradient.h), from the probes beyond the cage's front.
+// The cage's answer `root` at the surface itself (kernels/surface_gradient.h), from the probes beyond the cage's front.
 template <class Guard>
-Texel atSurface(const FieldView& view, const FieldQuery& query, const CageAnswer& answer, const Footprint& footprint,
-                const Guard& guard) {
+[[gnu::always_inline]] inline Texel atSurface(const FieldView& view, const FieldQuery& query, const CageAnswer& answer,
+                                              const Texel& root, const Footprint& footprint, const Guard& guard) {
     const GridDesc& grid = view.desc->grid;
     const int axis = kernels::dominantAxis(query.normal);
     const bool up = query.normal[axis] > 0.0f;
     const int beyond = answer.base[axis] + (up ? 2 : -1);
     const float trust = kernels::axisTrust(query.normal);
-    const float cells = kernels::cellsAhead(answer.ahead, grid.spacing[axis], query.normal[axis]);
-    if (beyond < 0 || beyond >= grid.counts[axis] || trust * cells <= 0.0f) return answer.root;
+    if (beyond < 0 || beyond >= grid.counts[axis] || trust <= 0.0f || answer.ahead <= 0.0f) return root;
 
     const std::array<std::int32_t, 3> strides{1, grid.counts.x, grid.counts.x * grid.counts.y};
     const std::int32_t step = up ? strides[std::size_t(axis)] : -strides[std::size_t(axis)];
-    glm::vec3 direction(0.0f);
-    direction[axis] = up ? 1.0f : -1.0f;
-    const Footprint towards = footprintOf(*view.visibilityTaps, view.desc->visibilityTexels, direction);
-    // The pair's weight is that of the probe in front, without the share that the point's depth gives to its layer.
-    const float alongAxis = kernels::trilinearFactor(up ? 1.0f : 0.0f, answer.alpha[axis]);
-    Texel rise = 0.0f;
-    float pairWeight = 0;
+    // The cage's lanes in front.
+    const std::size_t bit = std::size_t(1) << axis, first = up ? bit : 0;
+    const std::size_t u = axis == 0 ? 2 : 1, v = axis == 2 ? 2 : 4;
+    const std::array<std::size_t, 4> lanes{first, first + u, first + v, first + u + v};
+    FourProbes front;
+    alignas(32) std::array<float, wide::kLanes> weights{}, shares{};
     for (std::size_t i = 0; i < 4; ++i) {
-        const std::size_t low = i & ((std::size_t(1) << axis) - 1);
-        const std::size_t lane = ((i - low) << 1) + low + (up ? std::size_t(1) << axis : 0);
-        const std::int32_t front = answer.cage.probes[lane];
-        const float weight = answer.weight[lane] / alongAxis *
-                             kernels::outsideWeight(view.backfaceShare[front + step], kernels::kRulesMeasured) *
-                             guard.between(view, front, towards, grid.spacing[axis]);
-        rise += weight * (storedRoot(view, front + step, footprint) - answer.roots[lane]);
-        pairWeight += weight;
+        front[i] = answer.cage.probes[lanes[i]];
+        weights[i] = answer.weight[lanes[i]];
+        shares[i] = view.backfaceShare[front[i] + step];
     }
-    return Texel([&](auto c) { return kernels::rootAtSurface(answer.root[c], rise[c], pairWeight, cells, trust); });
+    const AxisTexels& towards = axisTexels(*view.visibilityTaps, view.desc->visibilityTexels, axis, up);
+    // The pair's weight is that of the probe in front, without the share that the point's depth gives to its layer.
+    const float alongAxis = 1.0f / kernels::trilinearFactor(up ? 1.0f : 0.0f, answer.alpha[axis]);
+    const Real pair = Real(weights.data(), element_aligned) * alongAxis *
+                      wide::outsideWeight(Real(shares.data(), element_aligned), kernels::kRulesMeasured) *
+                      guard.between(view, front, towards, grid.spacing[axis]);
+    Texel rise = 0.0f;
+    for (std::size_t i = 0; i < 4; ++i)
+        rise += float(pair[i]) * (storedRoot(view, front[i] + step, footprint) - answer.roots[lanes[i]]);
+
+    alignas(32) std::array<float, wide::kLanes> roots{}, rises{};
+    root.copy_to(roots.data(), element_aligned);
+    rise.copy_to(rises.data(), element_aligned);
+    wide::rootAtSurface(Real(roots.data(), element_aligned), Real(rises.data(), element_aligned),
+                        wide::stdx::reduce(pair),
+                        kernels::cellsAhead(answer.ahead, grid.spacing[axis], query.normal[axis]), trust)
+        .copy_to(roots.data(), element_aligned);
+    return Texel(roots.data(), element_aligned);
 }
 
 // Steps 1 to 3 of section 2.2 for the eight probes around a point, then their weighted sum.
@@ -180,23 +189,24 @@ glm::vec3 queryOne(const FieldView& view, FieldQuery query, const Guard& guard) 
     const float weightSum = wide::stdx::reduce(weight);
 
     const Footprint footprint = irradianceFootprint(view, query.normal);
-    CageAnswer answer{cage, glm::ivec3(base), alpha, {}, weight, 0.0f, 0.0f};
+    std::array<Texel, 8> roots;
+    Texel root = 0.0f;
     for (int lane = 0; lane < wide::kLanes; ++lane) {
-        answer.roots[std::size_t(lane)] = storedRoot(view, cage.probes[std::size_t(lane)], footprint);
-        answer.root += float(weight[lane]) * answer.roots[std::size_t(lane)];
+        roots[std::size_t(lane)] = storedRoot(view, cage.probes[std::size_t(lane)], footprint);
+        root += float(weight[lane]) * roots[std::size_t(lane)];
     }
     if (rules == kernels::kRulesPaper || weightSum >= kernels::kDoubtful) {
-        answer.root /= weightSum;
+        root /= weightSum;
         if (rules == kernels::kRulesMeasured) {
-            answer.ahead = wide::stdx::reduce(weight * ahead) / weightSum;
-            answer.root = atSurface(view, query, answer, footprint, guard);
+            const float distance = wide::stdx::reduce(weight * ahead) / weightSum;
+            root = atSurface(view, query, {cage, roots, weight, glm::ivec3(base), alpha, distance}, root, footprint,
+                             guard);
         }
-        const Texel& r = answer.root;
-        return glm::vec3(r[0] * r[0], r[1] * r[1], r[2] * r[2]) * kernels::kPi;
+        return glm::vec3(root[0] * root[0], root[1] * root[1], root[2] * root[2]) * kernels::kPi;
     }
     if (view.fallbacks) view.fallbacks->fetch_add(1, std::memory_order_relaxed);
-    return kernels::completedByNeighbours({answer.root[0], answer.root[1], answer.root[2]}, weightSum,
-                                          queryNeighbours(view, query, bias, answer.base));
+    return kernels::completedByNeighbours({root[0], root[1], root[2]}, weightSum,
+                                          queryNeighbours(view, query, bias, glm::ivec3(base)));
 }
 
 template <class Guard, int rules>

@@ -10,10 +10,10 @@
 
 KERNELS_BEGIN
 
-// The largest share of the (square root of the) light that is taken away.
+// The largest shares of the (square root of the) light that are taken away and added. With more to add, the field is
+// too bright under trees; with nothing, noise alone would take light away and bounces would multiply the loss.
 KERNEL_CONST float kMaxTaken = 0.5f;
-// The largest share that is added: as much as noise takes away where there is no gradient.
-KERNEL_CONST float kMaxAdded = 0.005f;
+KERNEL_CONST float kMaxAdded = 0.015f;
 // Weight of the pairs of probes at which their gradient is trusted in full.
 KERNEL_CONST float kTrustedWeight = 0.1f;
 // Lead of the normal's largest component over the next at which its axis counts in full.
@@ -43,13 +43,10 @@ KERNEL_FN float cellsAhead(float ahead, float axisSpacing, float normalOnAxis) {
 
 // One channel at the surface. `root`: what the cage answers; `rise`: sum over the pairs of weight times what the probe
 // beyond has more than the one in front, both in the space of decodeToBlendSpace(); `pairWeight`: sum of the weights.
-// A steep rise is damped: light that falls by its own size within a cell is not linear.
-KERNEL_FN float rootAtSurface(float root, float rise, float pairWeight, float cells, float trust) {
-    if (pairWeight <= 0.0f || root <= 0.0f) return root;
-    const float slope = rise / pairWeight;
-    const float known = trust * min(1.0f, pairWeight * (1.0f / kTrustedWeight));
-    const float damped = slope * root / (max(slope, 0.0f) * 0.5f + root);
-    return root - clamp(damped * cells * known, -kMaxAdded * root, kMaxTaken * root);
+KERNEL_FN Real rootAtSurface(Real root, Real rise, float pairWeight, float cells, float trust) {
+    const float known = cells * trust * min(1.0f, pairWeight * (1.0f / kTrustedWeight));
+    const Real change = rise * (known / (pairWeight + 1e-20f));  // 0 where there are no pairs
+    return root - min(max(change, root * -kMaxAdded), root * kMaxTaken);
 }
 
 KERNELS_END
