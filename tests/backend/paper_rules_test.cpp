@@ -56,7 +56,9 @@ glm::dvec3 paperIrradiance(const Field& field, const FieldQuery& query) {
             const double alpha = local[axis] - base[axis];
             trilinear *= std::max(0.001, offset[axis] > 0 ? alpha : 1 - alpha);
         }
-        const double wrap = (glm::dot(glm::normalize(place - position), twice(query.normal)) + 1) / 2;
+        // A probe has no side within a thousandth of the spacing: points outside the grid are moved onto probes.
+        const double away = glm::length(place - position) + 0.001 * minSpacing;
+        const double wrap = (glm::dot(place - position, twice(query.normal)) / away + 1) / 2;
         const double facing = wrap * wrap + 0.2;
         const double seen = field.desc().guard == LeakGuard::none ? 1 : visibility(field, probe, place, biased);
         double weight = facing * seen;
