@@ -42,7 +42,7 @@ KERNEL_FN vec3 selfShadowBias(vec3 normal, vec3 toViewer, float minSpacing, floa
 // the viewer, who may look along a wall. Leak through 2 cm at 1 m: a third of eq. 2's (docs/accuracy.md).
 KERNEL_FN vec3 visibilityBias(vec3 normal, vec3 toViewer, float minSpacing, float tunableBias, int rules) {
     if (rules == kRulesPaper) return selfShadowBias(normal, toViewer, minSpacing, tunableBias);
-    return (normal * 1.2f + toViewer * 0.65f) * (0.75f * minSpacing * tunableBias);
+    return (normal * 1.3f + toViewer * 0.67f) * (0.75f * minSpacing * tunableBias);
 }
 
 // By how much a point is moved before its cage is chosen: not at all by the paper's rules. Measured: with all of eq. 2,

@@ -28,8 +28,8 @@ TEST(ProbeQuery, biasesOfTheTwoRules) {
     EXPECT_EQ(visibilityBias(n, v, 2.0f, 0.3f, kRulesPaper), selfShadowBias(n, v, 2.0f, 0.3f));
     EXPECT_EQ(cageBias(n, v, 2.0f, 0.3f, kRulesPaper), vec3(0.0f));
     const vec3 b = visibilityBias(n, v, 2.0f, 0.3f, kRulesMeasured);
-    EXPECT_NEAR(b.x, 0.65f * 0.75f * 2.0f * 0.3f, 1e-6f);
-    EXPECT_NEAR(b.y, 1.2f * 0.75f * 2.0f * 0.3f, 1e-6f);
+    EXPECT_NEAR(b.x, 0.67f * 0.75f * 2.0f * 0.3f, 1e-6f);
+    EXPECT_NEAR(b.y, 1.3f * 0.75f * 2.0f * 0.3f, 1e-6f);
     EXPECT_EQ(visibilityBias(n, v, 4.0f, 0.15f, kRulesMeasured), b);
     EXPECT_EQ(cageBias(n, v, 2.0f, 0.3f, kRulesMeasured), 0.25f * selfShadowBias(n, v, 2.0f, 0.3f));
 }
