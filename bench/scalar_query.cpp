@@ -37,7 +37,8 @@ float visibilityWeight(const FieldView& view, int probe, glm::vec3 fromProbe) {
         mean += f.weights[tap] * kernels::unpackUnorm16(packed & 0xffffu);
         meanSquare += f.weights[tap] * kernels::unpackUnorm16(packed >> 16u);
     }
-    return kernels::chebyshevWeight(mean, meanSquare, glm::length(fromProbe) * view.inverseMaxDistance);
+    return kernels::chebyshevWeight(mean, meanSquare, glm::length(fromProbe) * view.inverseMaxDistance,
+                                    kernels::kRulesMeasured);
 }
 
 glm::vec3 blendSpaceIrradiance(const FieldView& view, int probe, const Footprint& f) {
@@ -56,10 +57,12 @@ glm::vec3 blendSpaceIrradiance(const FieldView& view, int probe, const Footprint
 glm::vec3 queryOne(const FieldView& view, FieldQuery query) {
     const GridDesc& grid = view.desc->grid;
     query.position = kernels::clampToGrid(query.position, grid.origin, grid.spacing, grid.counts);
+    const float scale = view.desc->selfShadowBias;
     const glm::vec3 bias =
-        kernels::selfShadowBias(query.normal, query.toViewer, view.minSpacing, view.desc->selfShadowBias);
-    const glm::vec3 local =
-        kernels::gridCoordinates(query.position + kernels::kCageBias * bias, grid.origin, view.inverseSpacing);
+        kernels::visibilityBias(query.normal, query.toViewer, view.minSpacing, scale, kernels::kRulesMeasured);
+    const glm::vec3 moved = query.position + kernels::cageBias(query.normal, query.toViewer, view.minSpacing, scale,
+                                                               kernels::kRulesMeasured);
+    const glm::vec3 local = kernels::gridCoordinates(moved, grid.origin, view.inverseSpacing);
     const glm::vec3 base = kernels::cageBase(local, grid.counts);
     const glm::vec3 alpha = kernels::cageAlpha(local, base);
     const Footprint footprint = footprintOf(*view.irradianceTaps, view.desc->irradianceTexels, query.normal);
@@ -76,8 +79,8 @@ glm::vec3 queryOne(const FieldView& view, FieldQuery query) {
                                 kernels::trilinearFactor(float(offset.y), alpha.y) *
                                 kernels::trilinearFactor(float(offset.z), alpha.z);
         const float visible = visibilityWeight(view, probe, bias - toProbe);
-        const float weight = kernels::crushWeight(kernels::backfaceWeight(cosine) * visible) * trilinear *
-                             kernels::outsideWeight(view.backfaceShare[probe]);
+        const float weight = kernels::crushWeight(kernels::backfaceWeight(cosine, kernels::kRulesMeasured) * visible) *
+                             trilinear * kernels::outsideWeight(view.backfaceShare[probe], kernels::kRulesMeasured);
         sum += weight * blendSpaceIrradiance(view, probe, footprint);
         weightSum += weight;
     }

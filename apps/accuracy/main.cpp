@@ -3,8 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 
+#include "backend.h"
 #include "markdown.h"
 #include "parse.h"
+#include "surface_points.h"
 #include "terminal.h"
 
 namespace {
@@ -14,7 +16,7 @@ using namespace probegi::accuracy;
 
 struct Options {
     std::string page;
-    std::string only;  ///< a scene, or "leak"; empty: all
+    std::string only;  ///< a scene, "leak" or "surfaces"; empty: all
     std::string scenesFolder = "../shared/scenes";
     int threads = 0;
     int samplesPerPixel = 256;
@@ -53,16 +55,35 @@ tool::ReportSettings settingsOf(const Options& options) {
     return settings;
 }
 
+/// The table of irradiance at surfaces: the scenes above that have much to see, and two larger built-in ones.
+Result<std::string> surfaces(const Context& context, const Options& options) {
+    std::vector<SurfaceRow> rows;
+    for (const char* name : {"cornell", "house", "atrium", "sponza"}) {
+        tool::SceneOptions scene;
+        scene.scene = "builtin:" + std::string(name);
+        for (const Case& entry : cases(options))
+            if (entry.name == name) scene = entry.options;
+        const auto setup = tool::loadSetup(scene);
+        if (!setup) return tl::unexpected(setup.error());
+        const auto measured = measureSurface(context, name, *setup, true);
+        if (!measured) return tl::unexpected(measured.error());
+        rows.insert(rows.end(), measured->begin(), measured->end());
+    }
+    return surfaceTable(rows);
+}
+
 Result<void> measure(const Options& options) {
     const auto context = tool::makeContext(options.threads);
     if (!context) return tl::unexpected(context.error());
+    const auto backend = tool::openBackend(*context, {});
+    if (!backend) return tl::unexpected(backend.error());
     std::vector<MeasuredScene> scenes;
     const auto wanted = [&](const std::string& name) { return options.only.empty() || options.only == name; };
     for (const Case& entry : cases(options)) {
         if (!wanted(entry.name)) continue;
         const auto setup = tool::loadSetup(entry.options);
         if (!setup) return tl::unexpected(setup.error());
-        auto rendered = tool::renderForReport(*context, *setup, settingsOf(options));
+        auto rendered = tool::renderForReport(*context, **backend, *setup, settingsOf(options));
         if (!rendered) return tl::unexpected(rendered.error());
         scenes.push_back({entry.name, std::move(*rendered)});
     }
@@ -73,7 +94,12 @@ Result<void> measure(const Options& options) {
         if (!leak) return tl::unexpected(leak.error());
         leaks.push_back(*leak);
     }
-    const std::string tables = accuracyTables(scenes, leaks, context->threads());
+    std::string tables = accuracyTables(scenes, leaks, context->threads());
+    if (wanted("surfaces")) {
+        const auto table = surfaces(*context, options);
+        if (!table) return tl::unexpected(table.error());
+        tables += *table;
+    }
     if (!options.page.empty() && options.only.empty()) return replaceBetweenMarkers(options.page, tables);
     fmt::print("{}", tables);
     return {};
@@ -85,8 +111,8 @@ int run(int argc, char** argv) {
     if (const char* folder = std::getenv("PROBEGI_SCENES"); folder && *folder) options.scenesFolder = folder;
     app.add_option("-o,--output", options.page, "page whose measured part is replaced (default: print)")
         ->type_name("FILE");
-    app.add_option("--only", options.only, "print the tables of one scene, or the leak, and write nothing")
-        ->type_name("cornell|two-rooms|dark-room|sponza|leak");
+    app.add_option("--only", options.only, "print the tables of one scene, the leak or the surfaces, and write nothing")
+        ->type_name("cornell|two-rooms|dark-room|sponza|leak|surfaces");
     app.add_option("--scenes", options.scenesFolder, "folder of the real scenes (default: PROBEGI_SCENES)")
         ->capture_default_str();
     app.add_option("--threads", options.threads, "worker threads; 0: all")->check(tool::inRange(0, 1024));

@@ -20,12 +20,14 @@ namespace {
 enum class Method { none, leaky, ddgi, reference };
 
 constexpr int kDefaultReferenceSamples = 64;
+constexpr float kPaperVisibilityExponent = 50;
 
 struct RenderOptions {
     SceneOptions scene;
     BackendOptions backend;
     std::string output, stats;
     Method method = Method::ddgi;
+    FieldRules rules = FieldRules::measured;
     Aov aov = Aov::color;
     std::string size = "960x540";
     int antialias = 2;
@@ -61,6 +63,8 @@ Result<std::optional<Field>> makeField(const Backend& backend, const Tracer& tra
     desc.grid = setup.grid;
     desc.raysPerProbe = options.rays;
     desc.seed = options.seed;
+    desc.rules = options.rules;
+    if (options.rules == FieldRules::paper) desc.visibilityExponent = kPaperVisibilityExponent;
     desc.guard = options.method == Method::leaky ? LeakGuard::none : LeakGuard::moments;
     auto field = backend.makeField(desc);
     if (!field) return tl::unexpected(field.error());
@@ -113,6 +117,8 @@ void warnAboutUnusedOptions(const RenderOptions& options) {
         printWarning("--spp and --time act on --method reference only");
     if ((reference || options.method == Method::none) && options.frames)
         printWarning("--frames acts on --method ddgi and leaky only");
+    if ((reference || options.method == Method::none) && options.rules == FieldRules::paper)
+        printWarning("--rules acts on --method ddgi and leaky only");
 }
 
 void checkOptions(const CLI::App& command, const RenderOptions& options) {
@@ -176,6 +182,14 @@ void addMethodOptions(CLI::App& command, RenderOptions& options) {
                     "the default), or all light path traced (reference)")
         ->type_name("none|leaky|ddgi|reference")
         ->transform(oneOf(kMethods));
+    static const std::map<std::string, FieldRules> kRules{{"measured", FieldRules::measured},
+                                                          {"paper", FieldRules::paper}};
+    command
+        .add_option("--rules", options.rules,
+                    "the field's rules: those that came out nearest to the path tracer (measured, the default), or the "
+                    "DDGI paper's to the letter (paper)")
+        ->type_name("measured|paper")
+        ->transform(oneOf(kRules));
     command.add_option("--rays", options.rays, "rays per probe and update, 8 to 4096")
         ->type_name("N")
         ->check(inRange(8, 4096))

@@ -9,8 +9,9 @@
 vec3 queryIrradiance(FieldQuery q) {
     const ivec3 counts = probegiVolume.counts;
     const vec3 position = clampToGrid(q.position, probegiVolume.origin, probegiVolume.spacing, counts);
-    const vec3 bias = selfShadowBias(q.normal, q.toViewer, probegiVolume.minSpacing, probegiVolume.selfShadowBias);
-    const vec3 local = gridCoordinates(position + kCageBias * bias, probegiVolume.origin, probegiVolume.inverseSpacing);
+    const float scale = probegiVolume.selfShadowBias;
+    const vec3 bias = visibilityBias(q.normal, q.toViewer, probegiVolume.minSpacing, scale, kRulesPaper);
+    const vec3 local = gridCoordinates(position, probegiVolume.origin, probegiVolume.inverseSpacing);
     const vec3 base = cageBase(local, counts);
     const vec3 alpha = cageAlpha(local, base);
     const vec2 texel = octTexelPosition(octEncode(q.normal), probegiVolume.irradianceTexels);
@@ -23,9 +24,9 @@ vec3 queryIrradiance(FieldQuery q) {
         const vec3 fromProbe = bias - toProbe;
         const vec2 moments = probegiMoments(cell, fromProbe);
         const float visible =
-            chebyshevWeight(moments.x, moments.y, length(fromProbe) * probegiVolume.inverseMaxDistance);
-        const float facing =
-            backfaceWeight(cosineToProbe(dot(toProbe, q.normal), length(toProbe), probegiVolume.minSpacing));
+            chebyshevWeight(moments.x, moments.y, length(fromProbe) * probegiVolume.inverseMaxDistance, kRulesPaper);
+        const float facing = backfaceWeight(
+            cosineToProbe(dot(toProbe, q.normal), length(toProbe), probegiVolume.minSpacing), kRulesPaper);
         const float weight = crushWeight(facing * visible) * trilinearFactor(float(corner.x), alpha.x) *
                              trilinearFactor(float(corner.y), alpha.y) * trilinearFactor(float(corner.z), alpha.z);
         const vec3 stored = probegiStored(cell, texel);

@@ -43,7 +43,7 @@ struct FieldDesc {
     float hysteresis = 0.97f;   ///< share of the old irradiance that survives an update (alpha of eq. 1), 0..0.999;
                                 ///< with FieldRules::measured only after events, and where there are no fixed rays
     float visibilityHysteresis = 0.97f;  ///< the same for distance moments, 0..0.999
-    float visibilityExponent = 100.0f;   ///< power of the cosine that weights distances, 1..500
+    float visibilityExponent = 200.0f;   ///< power of the cosine that weights distances, 1..500
     float selfShadowBias = 0.3f;         ///< TunableShadowBias of eq. 2, 0..2
     float significantChange = 0.25f;     ///< Listing 3, 0..1, change of the encoded texel over the larger; 0 disables
     float newDistribution = 0.8f;        ///< Listing 3, 0..1, same scale; 0 disables

@@ -3,15 +3,21 @@
 #include <cmath>
 #include <cstdint>
 
+#include "cpu/footprint.h"
 #include "cpu/probe_query.h"
 #include "cpu/wide.h"
 
 namespace probegi {
 
-/// A leak guard is a type with one function:
+/// A leak guard is a type with two functions:
 ///     Real operator()(const FieldView&, const CageQuery&) const
-/// which says for each of the eight probes of the cage, 0..1, how far the point may use it. It is a template argument
-/// of the query, so that a guard costs what it does and nothing more.
+/// says for each of the eight probes of the cage, 0..1, how far the point may use it, and
+///     Real between(const FieldView&, const FourProbes&, const AxisTexels&, float distance) const
+/// how far each of four probes (lanes 0 to 3; the others mean nothing) sees another one that stands `distance` metres
+/// away along an axis, around which the four texels of the visibility maps lie. It is a template argument of the query,
+/// so that a guard costs what it does and nothing more.
+using FourProbes = std::array<std::int32_t, 4>;  ///< linear indices
+
 struct CageQuery {
     std::array<std::int32_t, kernels::wide::kLanes> probes;  ///< linear indices
     kernels::wide::Real3 biasedPointFromProbe;  ///< from each probe to the point with the self-shadow bias, metres
@@ -20,9 +26,11 @@ struct CageQuery {
 /// The leaking baseline: every probe is as good as its place.
 struct NoGuard {
     kernels::wide::Real operator()(const FieldView&, const CageQuery&) const { return 1.0f; }
+    kernels::wide::Real between(const FieldView&, const FourProbes&, const AxisTexels&, float) const { return 1.0f; }
 };
 
-/// Chebyshev test on the probes' distance moments (sections 2.2 and 4.1).
+/// Chebyshev test on the probes' distance moments (sections 2.2 and 4.1), by one of kernels::kRules.
+template <int rules>
 struct MomentsGuard {
     kernels::wide::Real operator()(const FieldView& view, const CageQuery& cage) const {
         using namespace kernels::wide;
@@ -54,7 +62,31 @@ struct MomentsGuard {
             return (top + fy * (bottom - top)) * (1.0f / 65535.0f);
         };
         const Real distance = sqrt(d.x * d.x + d.y * d.y + d.z * d.z) * view.inverseMaxDistance;
-        return chebyshevWeight(bilinear(mean), bilinear(meanSquare), distance);
+        return chebyshevWeight(bilinear(mean), bilinear(meanSquare), distance, rules);
+    }
+
+    kernels::wide::Real between(const FieldView& view, const FourProbes& probes, const AxisTexels& texels,
+                                float distance) const {
+        using namespace kernels::wide;
+        using Four = stdx::fixed_size_simd<float, 4>;
+        using FourInts = stdx::fixed_size_simd<std::int32_t, 4>;
+        const std::int32_t texelsPerProbe = view.desc->visibilityTexels * view.desc->visibilityTexels;
+        // Four equal weights: sums of integers will do.
+        FourInts mean = 0, meanSquare = 0;
+        for (const std::uint32_t texel : texels) {
+            alignas(16) std::array<std::uint32_t, 4> packed;
+            for (std::size_t i = 0; i < 4; ++i)
+                packed[i] = view.visibility[std::size_t(probes[i] * texelsPerProbe) + texel];
+            const stdx::fixed_size_simd<std::uint32_t, 4> bits(packed.data(), stdx::vector_aligned);
+            mean += stdx::static_simd_cast<FourInts>(bits & 0xffffu);
+            meanSquare += stdx::static_simd_cast<FourInts>(bits >> 16);
+        }
+        const auto lanes = [](const FourInts& sum) {
+            alignas(32) std::array<float, kLanes> values{};
+            (stdx::static_simd_cast<Four>(sum) * (0.25f / 65535.0f)).copy_to(values.data(), stdx::element_aligned);
+            return Real(values.data(), stdx::element_aligned);
+        };
+        return chebyshevWeight(lanes(mean), lanes(meanSquare), distance * view.inverseMaxDistance, rules);
     }
 
 private:

@@ -4,6 +4,7 @@
 
 #include "kernels/octahedral.h"
 #include "kernels/probe_query.h"
+#include "kernels/surface_gradient.h"
 
 // The kernels of the query a second time, eight probes abreast: the same text in another namespace where Real is eight
 // floats. std::experimental::simd with a fixed size was chosen: it comes with the compiler, has no minimum instruction
@@ -50,6 +51,13 @@ inline Real sqrt(const Real& x) {
 inline Real max(const Real& a, const Real& b) {
     return stdx::max(a, b);
 }
+inline Real min(const Real& a, const Real& b) {
+    return stdx::min(a, b);
+}
+// Of a kernel's numbers that are no lanes.
+using kernels::abs;
+using kernels::max;
+using kernels::min;
 
 }  // namespace probegi::kernels::wide
 
@@ -60,8 +68,10 @@ inline Real max(const Real& a, const Real& b) {
 #define KERNELS_END }
 #undef PROBEGI_KERNELS_OCTAHEDRAL_H
 #undef PROBEGI_KERNELS_PROBE_QUERY_H
+#undef PROBEGI_KERNELS_SURFACE_GRADIENT_H
 #include "kernels/octahedral.h"
 #include "kernels/probe_query.h"
+#include "kernels/surface_gradient.h"
 #undef KERNELS_BEGIN
 #undef KERNELS_END
 #define KERNELS_BEGIN namespace probegi::kernels {

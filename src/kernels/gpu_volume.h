@@ -25,6 +25,7 @@ struct GpuVolume {
     vec2 visibilityTexelSize;
     int irradianceTexels;  // side of a map without border
     int visibilityTexels;
+    int rules;  // of the query, kRulesMeasured or kRulesPaper (kernels/probe_query.h)
 };
 
 // Probe number -> its place in the grid, as probegi::probePosition counts.
@@ -49,7 +50,7 @@ KERNELS_END
 namespace probegi::kernels {
 static_assert(offsetof(GpuVolume, spacing) == 16 && offsetof(GpuVolume, inverseSpacing) == 32);
 static_assert(offsetof(GpuVolume, counts) == 48 && offsetof(GpuVolume, irradianceTexelSize) == 64);
-static_assert(offsetof(GpuVolume, irradianceTexels) == 80 && sizeof(GpuVolume) == 88);
+static_assert(offsetof(GpuVolume, irradianceTexels) == 80 && sizeof(GpuVolume) == 92);
 }  // namespace probegi::kernels
 #endif
 

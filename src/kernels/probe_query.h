@@ -6,20 +6,27 @@
 
 KERNELS_BEGIN
 
+// Which rules a query follows, in the order of probegi::FieldRules: those that measurements led to (docs/accuracy.md),
+// or the paper's to the letter.
+KERNEL_CONST int kRulesMeasured = 0;
+KERNEL_CONST int kRulesPaper = 1;
+
 // Weight of a probe straight behind the surface. Majercik et al. 2019 add 0.2; against a sealed room 0.05 halves the
 // leak (docs/accuracy.md), and points that no probe faces have the wider search to fall back on.
-KERNEL_CONST float kBackfaceFloor = 0.05f;
+KERNEL_FN float backfaceFloor(int rules) {
+    return rules == kRulesPaper ? 0.2f : 0.05f;
+}
+
+// Chebyshev weights never fall below this: where all eight probes are shadowed, ratios still decide. Small, since it is
+// what eight shadowed probes leak together; the paper's rules keep the usual 0.05.
+KERNEL_FN float chebyshevFloor(int rules) {
+    return rules == kRulesPaper ? 0.05f : 0.003f;
+}
+
 // Smallest trilinear factor per axis, so that a point on a cell's face still has a fallback on the far side.
 KERNEL_CONST float kMinTrilinear = 0.001f;
-// Chebyshev weights never fall below this: where all eight probes are shadowed, ratios still decide.
-KERNEL_CONST float kMinChebyshev = 0.05f;
 // Weights below this are crushed.
 KERNEL_CONST float kCrushBelow = 0.2f;
-
-// Share of the self-shadow bias by which a point is moved before its cage is chosen. With all of it, surfaces take the
-// light of the room's middle (Cornell box 10 % too bright on average); with none, a wall that coincides with a layer of
-// probes leaks three times as much. A quarter has nearly the best of both.
-KERNEL_CONST float kCageBias = 0.25f;
 
 // Share of backface hits at which a probe begins to count as inside geometry, and over which it ceases to be used.
 KERNEL_CONST float kInsideShare = 0.25f;
@@ -28,6 +35,21 @@ KERNEL_CONST float kInsideShareEdge = 0.05f;
 // Eq. 2: the offset from a surface point to where visibility is tested. `toViewer` is omega_o.
 KERNEL_FN vec3 selfShadowBias(vec3 normal, vec3 toViewer, float minSpacing, float tunableBias) {
     return (normal * 0.2f + toViewer * 0.8f) * (0.75f * minSpacing * tunableBias);
+}
+
+// Where visibility is tested, from the point. Eq. 2 by the paper's rules. Measured: longer along the normal, so that
+// behind a thin wall a point lies well behind the mean distance of what is on the wall's other side; and less towards
+// the viewer, who may look along a wall. Leak through 2 cm at 1 m: a third of eq. 2's (docs/accuracy.md).
+KERNEL_FN vec3 visibilityBias(vec3 normal, vec3 toViewer, float minSpacing, float tunableBias, int rules) {
+    if (rules == kRulesPaper) return selfShadowBias(normal, toViewer, minSpacing, tunableBias);
+    return (normal * 1.3f + toViewer * 0.67f) * (0.75f * minSpacing * tunableBias);
+}
+
+// By how much a point is moved before its cage is chosen: not at all by the paper's rules. Measured: with all of eq. 2,
+// surfaces take the light of the room's middle (Cornell box 10 % too bright on average); with none, a wall that
+// coincides with a layer of probes leaks three times as much. A quarter has nearly the best of both.
+KERNEL_FN vec3 cageBias(vec3 normal, vec3 toViewer, float minSpacing, float tunableBias, int rules) {
+    return selfShadowBias(normal, toViewer, minSpacing, tunableBias) * (rules == kRulesPaper ? 0.0f : 0.25f);
 }
 
 // Trilinear factor of one axis: `corner` is 0 or 1, `alpha` the position in the cell, 0..1.
@@ -46,19 +68,19 @@ KERNEL_FN Real cosineToProbe(Real product, Real distance, float minSpacing) {
 
 // Smooth backface weight: ((cos + 1) / 2)^2 and a floor, with the cosine between the normal and the direction to the
 // probe.
-KERNEL_FN Real backfaceWeight(Real cosToProbe) {
+KERNEL_FN Real backfaceWeight(Real cosToProbe, int rules) {
     const Real wrap = cosToProbe * 0.5f + 0.5f;
-    return wrap * wrap + kBackfaceFloor;
+    return wrap * wrap + backfaceFloor(rules);
 }
 
 // One-sided Chebyshev bound on the share of light that passes `distance`, from the mean and mean square of the distance
 // to the nearest surface; cubed to darken what is uncertain. 1 in front of the mean.
-KERNEL_FN Real chebyshevWeight(Real mean, Real meanSquare, Real distance) {
+KERNEL_FN Real chebyshevWeight(Real mean, Real meanSquare, Real distance, int rules) {
     const Real variance = abs(meanSquare - mean * mean);
     const Real behind = max(distance - mean, Real(0.0f));
     // The tiny addend decides 0 / 0: a surface without variance blocks nothing in front of it and everything behind.
     const Real bound = (variance + 1e-12f) / (variance + behind * behind + 1e-12f);
-    return max(bound * bound * bound, Real(kMinChebyshev));
+    return max(bound * bound * bound, Real(chebyshevFloor(rules)));
 }
 
 // Small weights shrink with their cube, so that eight leaking probes do not add up to a leak.
@@ -69,7 +91,9 @@ KERNEL_FN Real crushWeight(Real w) {
 // How far a probe may be used at all: not when more than a quarter of what it hits are backfaces, since then it stands
 // in a wall or outside the modelled world. Listing 4 draws the line at a quarter of all rays; a share of the hits also
 // finds probes that look at a closed shell from the void around it. A soft edge keeps the answer continuous in time.
-KERNEL_FN Real outsideWeight(Real backfaceShare) {
+// The paper moves such probes or switches them off; in a query it has no such rule.
+KERNEL_FN Real outsideWeight(Real backfaceShare, int rules) {
+    if (rules == kRulesPaper) return Real(1.0f);
     return max(Real(0.0f), 1.0f - max(Real(0.0f), backfaceShare - kInsideShare) * (1.0f / kInsideShareEdge));
 }
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "kernels/gpu_passes.h"
+#include "kernels/probe_query.h"
 #include "surface/probe_emitters.h"
 #include "vulkan/errors.h"
 #include "vulkan/gpu_lighting_impl.h"
@@ -102,7 +103,8 @@ kernels::GpuVolume VolumePasses::constants(LeakGuard guard) const {
             .irradianceTexelSize = texelSize(m_irradiance),
             .visibilityTexelSize = texelSize(m_visibility),
             .irradianceTexels = m_desc.irradianceTexels,
-            .visibilityTexels = m_desc.visibilityTexels};
+            .visibilityTexels = m_desc.visibilityTexels,
+            .rules = m_desc.rules == FieldRules::paper ? kernels::kRulesPaper : kernels::kRulesMeasured};
 }
 
 void VolumePasses::writeSet() {

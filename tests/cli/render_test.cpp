@@ -50,6 +50,13 @@ std::vector<std::string> quick(std::vector<std::string> more) {
     return more;
 }
 
+TEST(Render, ThePapersRulesMakeAnotherPicture) {
+    const HdrImage measured = render(quick({"--rules", "measured"})), paper = render(quick({"--rules", "paper"}));
+    EXPECT_EQ(measured.pixels, render(quick({})).pixels);
+    EXPECT_NE(measured.pixels, paper.pixels);
+    EXPECT_NEAR(mean(paper) / mean(measured), 1, 0.3);
+}
+
 TEST(Render, EveryMethodMakesAPicture) {
     const double none = mean(render({"--method", "none"}));
     const double ddgi = mean(render(quick({"--method", "ddgi"})));

@@ -1,9 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <set>
+
 #include "cpu/wide.h"
 #include "kernels/probe_blend.h"
+#include "kernels/probe_cage.h"
+#include "kernels/probe_neighbours.h"
 #include "kernels/probe_query.h"
 #include "kernels/random.h"
+#include "kernels/surface_gradient.h"
 
 namespace probegi::kernels {
 namespace {
@@ -15,41 +21,154 @@ TEST(ProbeQuery, selfShadowBiasIsEquationTwo) {
     EXPECT_EQ(b.z, 0.0f);
 }
 
+// The paper's rules test visibility where eq. 2 says and do not move the cage; the measured ones do both along the
+// normal and the view, in proportion to the spacing and to the tunable bias.
+TEST(ProbeQuery, biasesOfTheTwoRules) {
+    const vec3 n(0, 1, 0), v(1, 0, 0);
+    EXPECT_EQ(visibilityBias(n, v, 2.0f, 0.3f, kRulesPaper), selfShadowBias(n, v, 2.0f, 0.3f));
+    EXPECT_EQ(cageBias(n, v, 2.0f, 0.3f, kRulesPaper), vec3(0.0f));
+    const vec3 b = visibilityBias(n, v, 2.0f, 0.3f, kRulesMeasured);
+    EXPECT_NEAR(b.x, 0.67f * 0.75f * 2.0f * 0.3f, 1e-6f);
+    EXPECT_NEAR(b.y, 1.3f * 0.75f * 2.0f * 0.3f, 1e-6f);
+    EXPECT_EQ(visibilityBias(n, v, 4.0f, 0.15f, kRulesMeasured), b);
+    EXPECT_EQ(cageBias(n, v, 2.0f, 0.3f, kRulesMeasured), 0.25f * selfShadowBias(n, v, 2.0f, 0.3f));
+}
+
 TEST(ProbeQuery, trilinearFactorsOfAnAxisSumToOneInside) {
     for (float a : {0.01f, 0.3f, 0.5f, 0.99f}) EXPECT_NEAR(trilinearFactor(0, a) + trilinearFactor(1, a), 1.0f, 1e-6f);
     EXPECT_EQ(trilinearFactor(1, 0.0f), kMinTrilinear);
 }
 
 TEST(ProbeQuery, backfaceWeightFallsFromFrontToBack) {
-    EXPECT_FLOAT_EQ(backfaceWeight(1.0f), 1.05f);
-    EXPECT_FLOAT_EQ(backfaceWeight(-1.0f), 0.05f);
-    EXPECT_FLOAT_EQ(backfaceWeight(0.0f), 0.30f);
+    EXPECT_FLOAT_EQ(backfaceWeight(1.0f, kRulesMeasured), 1.05f);
+    EXPECT_FLOAT_EQ(backfaceWeight(-1.0f, kRulesMeasured), 0.05f);
+    EXPECT_FLOAT_EQ(backfaceWeight(0.0f, kRulesMeasured), 0.30f);
+    EXPECT_FLOAT_EQ(backfaceWeight(1.0f, kRulesPaper), 1.20f);
+    EXPECT_FLOAT_EQ(backfaceWeight(-1.0f, kRulesPaper), 0.20f);
 }
 
 TEST(ProbeQuery, probesInWallsAreNotUsed) {
-    EXPECT_FLOAT_EQ(outsideWeight(0.0f), 1.0f);
-    EXPECT_FLOAT_EQ(outsideWeight(kInsideShare), 1.0f);
-    EXPECT_FLOAT_EQ(outsideWeight(kInsideShare + 0.5f * kInsideShareEdge), 0.5f);
-    EXPECT_FLOAT_EQ(outsideWeight(1.0f), 0.0f);
+    EXPECT_FLOAT_EQ(outsideWeight(0.0f, kRulesMeasured), 1.0f);
+    EXPECT_FLOAT_EQ(outsideWeight(kInsideShare, kRulesMeasured), 1.0f);
+    EXPECT_FLOAT_EQ(outsideWeight(kInsideShare + 0.5f * kInsideShareEdge, kRulesMeasured), 0.5f);
+    EXPECT_FLOAT_EQ(outsideWeight(1.0f, kRulesMeasured), 0.0f);
+    EXPECT_EQ(outsideWeight(1.0f, kRulesPaper), 1.0f);
 }
 
 TEST(ProbeQuery, chebyshevIsOneInFrontAndFollowsItsBoundBehind) {
     const float mean = 0.4f, variance = 0.01f, square = mean * mean + variance;
-    EXPECT_FLOAT_EQ(chebyshevWeight(mean, square, 0.3f), 1.0f);
-    EXPECT_FLOAT_EQ(chebyshevWeight(mean, square, 0.4f), 1.0f);
+    EXPECT_FLOAT_EQ(chebyshevWeight(mean, square, 0.3f, kRulesMeasured), 1.0f);
+    EXPECT_FLOAT_EQ(chebyshevWeight(mean, square, 0.4f, kRulesMeasured), 1.0f);
     const float bound = variance / (variance + 0.1f * 0.1f);
-    EXPECT_NEAR(chebyshevWeight(mean, square, 0.5f), bound * bound * bound, 1e-5f);
-    EXPECT_FLOAT_EQ(chebyshevWeight(mean, square, 100.0f), kMinChebyshev);
+    EXPECT_NEAR(chebyshevWeight(mean, square, 0.5f, kRulesMeasured), bound * bound * bound, 1e-5f);
+    EXPECT_FLOAT_EQ(chebyshevWeight(mean, square, 100.0f, kRulesMeasured), 0.003f);
+    EXPECT_FLOAT_EQ(chebyshevWeight(mean, square, 100.0f, kRulesPaper), 0.05f);
     // Without variance: a sharp step, and no division of zero by zero.
-    EXPECT_FLOAT_EQ(chebyshevWeight(0.5f, 0.25f, 0.5f), 1.0f);
-    EXPECT_FLOAT_EQ(chebyshevWeight(0.5f, 0.25f, 0.51f), kMinChebyshev);
+    EXPECT_FLOAT_EQ(chebyshevWeight(0.5f, 0.25f, 0.5f, kRulesMeasured), 1.0f);
+    EXPECT_FLOAT_EQ(chebyshevWeight(0.5f, 0.25f, 0.51f, kRulesMeasured), 0.003f);
 }
 
 TEST(ProbeQuery, crushIsContinuousMonotoneAndKillsTheFloor) {
     EXPECT_FLOAT_EQ(crushWeight(0.5f), 0.5f);
     EXPECT_NEAR(crushWeight(kCrushBelow * 0.99999f), kCrushBelow, 1e-4f);
-    EXPECT_LT(8 * crushWeight(kMinChebyshev * 1.05f), 0.05f);
+    EXPECT_LT(8 * crushWeight(chebyshevFloor(kRulesPaper) * 1.20f), 0.05f);
+    EXPECT_LT(8 * crushWeight(chebyshevFloor(kRulesMeasured) * 1.05f), 1e-5f);
     for (float w = 0.01f; w < 0.4f; w += 0.01f) EXPECT_LT(crushWeight(w), crushWeight(w + 0.01f));
+}
+
+// Every probe that shares a face with the cage, once, and no other.
+TEST(ProbeNeighbours, areThoseOfTheCagesFaces) {
+    const ivec3 base(3, 5, 7);
+    std::set<std::array<int, 3>> cells;
+    for (int i = 0; i < kNeighbours; ++i) {
+        const ivec3 at = neighbourCell(base, i) - base;
+        int outside = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_GE(at[axis], -1);
+            EXPECT_LE(at[axis], 2);
+            outside += at[axis] < 0 || at[axis] > 1 ? 1 : 0;
+        }
+        EXPECT_EQ(outside, 1);
+        cells.insert({at.x, at.y, at.z});
+    }
+    EXPECT_EQ(int(cells.size()), kNeighbours);
+    EXPECT_TRUE(isInGrid(ivec3(0), ivec3(2)) && isInGrid(ivec3(1), ivec3(2)));
+    for (int axis = 0; axis < 3; ++axis) {
+        ivec3 low(0), high(1);
+        low[axis] = -1;
+        high[axis] = 2;
+        EXPECT_FALSE(isInGrid(low, ivec3(2)) || isInGrid(high, ivec3(2)));
+    }
+}
+
+TEST(ProbeNeighbours, weightsFallWithTheFourthPowerOfDistance) {
+    const vec3 up(0, 1, 0);
+    const auto ahead = [&](float distance) { return neighbourWeight(1.0f, up * distance, up, 1.0f, 2.0f); };
+    // (spacing / (spacing + distance))^4, times the facing of 1.05.
+    EXPECT_NEAR(ahead(2.0f), 1.05f / 16, 1e-4f);
+    EXPECT_NEAR(ahead(6.0f), 1.05f / 256, 1e-5f);
+    EXPECT_NEAR(ahead(2.0f) / ahead(6.0f), 16.0f, 0.02f);
+}
+
+TEST(ProbeNeighbours, weightsKnowFacingVisibilityAndWalls) {
+    const vec3 up(0, 1, 0);
+    const float near = 1.0f / 16;
+    EXPECT_NEAR(neighbourWeight(1.0f, vec3(2, 0, 0), up, 1.0f, 2.0f), 0.30f * near, 1e-5f);
+    // Crushed below 0.2: behind, and in front but hardly seen.
+    EXPECT_NEAR(neighbourWeight(1.0f, vec3(0, -2, 0), up, 1.0f, 2.0f), 0.05f * 0.05f * 0.05f / 0.04f * near, 1e-6f);
+    EXPECT_NEAR(neighbourWeight(1.0f, vec3(0, 2, 0), up, 0.1f, 2.0f), 0.105f * 0.105f * 0.105f / 0.04f * near, 1e-5f);
+    EXPECT_NEAR(neighbourWeight(0.5f, vec3(2, 0, 0), up, 1.0f, 2.0f), 0.15f * near, 1e-5f);
+    EXPECT_EQ(neighbourWeight(0.0f, vec3(2, 0, 0), up, 1.0f, 2.0f), 0.0f);
+}
+
+TEST(ProbeNeighbours, beyondTheFarthestDistanceNothingIsKnown) {
+    const vec2 moments(0.9f, 0.82f);
+    EXPECT_EQ(neighbourVisibility(moments, 0.8f), 1.0f);
+    EXPECT_EQ(neighbourVisibility(moments, 0.99f), chebyshevWeight(0.9f, 0.82f, 0.99f, kRulesMeasured));
+    EXPECT_EQ(neighbourVisibility(vec2(1.0f, 1.0f), 1.0f), chebyshevFloor(kRulesMeasured));
+}
+
+// At the limit of doubt the cage answers alone, at weight 0 the neighbours do, between them roots of light are mixed.
+TEST(ProbeNeighbours, theAnswerIsContinuousAtTheLimitOfDoubt) {
+    const vec3 cage(0.7f, 1.0f, 0.0f), neighbours = kPi * vec3(4, 9, 16);
+    const vec3 alone = completedByNeighbours(cage * kDoubtful, kDoubtful, neighbours);
+    const vec3 none = completedByNeighbours(vec3(0.0f), 0.0f, neighbours);
+    const vec3 half = completedByNeighbours(cage * (0.5f * kDoubtful), 0.5f * kDoubtful, neighbours);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(alone[c], kPi * cage[c] * cage[c], 1e-4f);
+        EXPECT_NEAR(none[c], neighbours[c], 1e-3f);
+        const float root = 0.5f * (cage[c] + std::sqrt(neighbours[c] / kPi));
+        EXPECT_NEAR(half[c], kPi * root * root, 1e-3f);
+    }
+}
+
+TEST(SurfaceGradient, theAxisIsTheNormalsLargest) {
+    EXPECT_EQ(dominantAxis(vec3(-0.8f, 0.5f, 0.3f)), 0);
+    EXPECT_EQ(dominantAxis(vec3(0.1f, 0.9f, -0.4f)), 1);
+    EXPECT_EQ(dominantAxis(vec3(0.1f, 0.2f, -0.97f)), 2);
+    EXPECT_FLOAT_EQ(axisTrust(vec3(0, -1, 0)), 1.0f);
+    EXPECT_FLOAT_EQ(axisTrust(vec3(0.7f, 0.7f, 0.1f)), 0.0f);  // where axes change, none counts
+    EXPECT_NEAR(axisTrust(vec3(0.7f, -0.7f - 0.5f * kAxisLead, 0.0f)), 0.5f, 1e-4f);
+}
+
+TEST(SurfaceGradient, takesWhatTheGradientPredicts) {
+    // A slope of 0.1 at a root of 1, half a cell ahead: 0.05.
+    EXPECT_NEAR(rootAtSurface(1.0f, 0.02f, 0.2f, 0.5f, 1.0f), 1.0f - 0.05f, 1e-6f);
+    // Half trusted: by the normal, by the weight of the pairs.
+    EXPECT_NEAR(rootAtSurface(1.0f, 0.02f, 0.2f, 0.5f, 0.5f), 1.0f - 0.025f, 1e-6f);
+    const float half = 0.5f * kTrustedWeight;
+    EXPECT_NEAR(rootAtSurface(1.0f, 0.1f * half, half, 0.5f, 1.0f), 1.0f - 0.025f, 1e-6f);
+    EXPECT_NEAR(rootAtSurface(1.0f, -0.001f, 0.2f, 0.5f, 1.0f), 1.0025f, 1e-6f);
+    EXPECT_FLOAT_EQ(cellsAhead(0.6f, 2.0f, -0.5f), 0.6f);
+    EXPECT_EQ(cellsAhead(-0.6f, 2.0f, 1.0f), 0.0f);
+}
+
+TEST(SurfaceGradient, hardlyAddsAndNeverTakesMoreThanItsShare) {
+    EXPECT_EQ(rootAtSurface(1.0f, 0.0f, 0.2f, 0.5f, 1.0f), 1.0f);
+    EXPECT_FLOAT_EQ(rootAtSurface(1.0f, -0.1f, 0.2f, 0.5f, 1.0f), 1.0f + kMaxAdded);
+    EXPECT_EQ(rootAtSurface(0.0f, 0.1f, 0.2f, 0.5f, 1.0f), 0.0f);
+    EXPECT_EQ(rootAtSurface(1.0f, 0.1f, 0.0f, 0.5f, 1.0f), 1.0f);
+    EXPECT_FLOAT_EQ(rootAtSurface(2.0f, 1e6f, 1.0f, 1.5f, 1.0f), 2.0f * (1.0f - kMaxTaken));
 }
 
 TEST(ProbeBlend, backfacesShortenByEightyPercent) {
@@ -87,13 +206,13 @@ TEST(Wide, lanesEqualTheScalarKernels) {
         for (int i = 0; i < 8; ++i) x[i] = random(i), y[i] = random(i), z[i] = random(i);
         const auto load = [](const auto& a) { return wide::Real(a.data(), wide::stdx::element_aligned); };
         const wide::Real2 oct = wide::octEncode({load(x), load(y), load(z)});
-        const wide::Real chebyshev = wide::chebyshevWeight(load(x), load(y), load(z));
+        const wide::Real chebyshev = wide::chebyshevWeight(load(x), load(y), load(z), kRulesMeasured);
         const wide::Real crush = wide::crushWeight(load(x));
         for (int i = 0; i < 8; ++i) {
             const vec2 expected = octEncode(vec3(x[i], y[i], z[i]));
             EXPECT_NEAR(oct.x[i], expected.x, 1e-6f);
             EXPECT_NEAR(oct.y[i], expected.y, 1e-6f);
-            EXPECT_NEAR(chebyshev[i], chebyshevWeight(x[i], y[i], z[i]), 1e-5f);
+            EXPECT_NEAR(chebyshev[i], chebyshevWeight(x[i], y[i], z[i], kRulesMeasured), 1e-5f);
             EXPECT_NEAR(crush[i], crushWeight(x[i]), 1e-4f);
         }
     }

@@ -20,6 +20,7 @@
 #include "kernels/octahedral.h"
 #include "kernels/probe_cage.h"
 #include "kernels/probe_neighbours.h"
+#include "kernels/surface_gradient.h"
 
 #ifndef PROBEGI_SET
 #define PROBEGI_SET 0
@@ -69,78 +70,131 @@ vec2 probegiMoments(ivec3 cell, vec3 direction) {
 float probegiGuard(ivec3 cell, vec3 fromProbe) {
     if (probegiVolume.guard == kGuardNone) return 1.0;
     const vec2 moments = probegiMoments(cell, fromProbe);
-    return chebyshevWeight(moments.x, moments.y, length(fromProbe) * probegiVolume.inverseMaxDistance);
+    return chebyshevWeight(moments.x, moments.y, length(fromProbe) * probegiVolume.inverseMaxDistance,
+                           probegiVolume.rules);
 }
 
-// The same for the wider search.
+// The same for the neighbours of a cage that does not know.
 float probegiNeighbourGuard(ivec3 cell, vec3 fromProbe) {
     if (probegiVolume.guard == kGuardNone) return 1.0;
     return neighbourVisibility(probegiMoments(cell, fromProbe),
                                (length(fromProbe) + kNoLength) * probegiVolume.inverseMaxDistance);
 }
 
+// How far a probe may be used at all.
 float probegiOutside(ivec3 cell) {
-    return outsideWeight(probegiStates.backfaceShare[probeNumber(cell, probegiVolume.counts)]);
+    return outsideWeight(probegiStates.backfaceShare[probeNumber(cell, probegiVolume.counts)], probegiVolume.rules);
 }
 
-// E where the cage does not know; `local`: the point in the grid.
-vec3 probegiNeighbours(vec3 position, vec3 normal, vec3 bias, vec3 local, vec2 texel) {
-    const ivec3 lowest = searchLowest(local, probegiVolume.counts);
-    const ivec3 highest = searchHighest(local, probegiVolume.counts);
+// What a probe answers in the space in which probes are blended.
+vec3 probegiRoot(ivec3 cell, vec2 texel) {
+    const vec3 stored = probegiStored(cell, texel);
+    return vec3(decodeToBlendSpace(stored.x), decodeToBlendSpace(stored.y), decodeToBlendSpace(stored.z));
+}
+
+// E where the cage does not know; `base`: its lowest probe.
+vec3 probegiNeighbours(vec3 position, vec3 normal, vec3 bias, ivec3 base, vec2 texel) {
     vec3 sum = vec3(0.0);
     float weightSum = 0.0;
-    for (int z = lowest.z; z <= highest.z; ++z) {
-        for (int y = lowest.y; y <= highest.y; ++y) {
-            for (int x = lowest.x; x <= highest.x; ++x) {
-                const ivec3 cell = ivec3(x, y, z);
-                const float outside = probegiOutside(cell);
-                if (outside <= 0.0) continue;
-                const vec3 toProbe = probePlace(cell, probegiVolume.origin, probegiVolume.spacing) - position;
-                const float visible = probegiNeighbourGuard(cell, bias - toProbe);
-                const float weight = neighbourWeight(outside, toProbe, normal, visible, probegiVolume.minSpacing);
-                const vec3 stored = probegiStored(cell, texel);
-                sum += weight * kPi *
-                       vec3(decodeIrradiance(stored.x), decodeIrradiance(stored.y), decodeIrradiance(stored.z));
-                weightSum += weight;
-            }
-        }
+    for (int i = 0; i < kNeighbours; ++i) {
+        const ivec3 cell = neighbourCell(base, i);
+        if (!isInGrid(cell, probegiVolume.counts)) continue;
+        const float outside = probegiOutside(cell);
+        if (outside <= 0.0) continue;
+        const vec3 toProbe = probePlace(cell, probegiVolume.origin, probegiVolume.spacing) - position;
+        const float visible = probegiNeighbourGuard(cell, bias - toProbe);
+        const float weight = neighbourWeight(outside, toProbe, normal, visible, probegiVolume.minSpacing);
+        const vec3 stored = probegiStored(cell, texel);
+        sum += weight * kPi * vec3(decodeIrradiance(stored.x), decodeIrradiance(stored.y), decodeIrradiance(stored.z));
+        weightSum += weight;
     }
     return weightSum > 0.0 ? sum / weightSum : vec3(0.0);
+}
+
+// Which layer of probes tells how light changes along a normal (kernels/surface_gradient.h).
+struct ProbegiFront {
+    int axis;
+    int side;     // 1 or 0: the cage's layer in front, along the axis
+    ivec3 step;   // to the layer beyond
+    float trust;  // 0 where that layer is not in the grid
+};
+
+ProbegiFront probegiFront(vec3 normal, ivec3 base) {
+    ProbegiFront front;
+    front.axis = dominantAxis(normal);
+    front.side = normal[front.axis] > 0.0 ? 1 : 0;
+    front.step = ivec3(0);
+    front.step[front.axis] = 2 * front.side - 1;
+    const int beyond = base[front.axis] + (front.side == 1 ? 2 : -1);
+    const bool known =
+        probegiVolume.rules == kRulesMeasured && beyond >= 0 && beyond < probegiVolume.counts[front.axis];
+    front.trust = known ? axisTrust(normal) : 0.0;
+    return front;
+}
+
+// How far a probe in front and the one beyond may tell.
+float probegiPair(ivec3 cell, ProbegiFront front) {
+    const float outside = probegiOutside(cell + front.step);
+    if (probegiVolume.guard == kGuardNone) return outside;
+    const vec2 moments = probegiMoments(cell, vec3(front.step));
+    return outside * chebyshevWeight(moments.x, moments.y,
+                                     probegiVolume.spacing[front.axis] * probegiVolume.inverseMaxDistance,
+                                     probegiVolume.rules);
 }
 
 // Irradiance E in W m^-2 at a point of a surface that faces `normal`, seen from the direction `toViewer` (both unit;
 // use the normal where there is no viewer). Outside the volume its nearest cell answers.
 vec3 probegiIrradiance(vec3 point, vec3 normal, vec3 toViewer) {
     const ivec3 counts = probegiVolume.counts;
+    const int rules = probegiVolume.rules;
+    const float minSpacing = probegiVolume.minSpacing;
     const vec3 position = clampToGrid(point, probegiVolume.origin, probegiVolume.spacing, counts);
-    const vec3 bias = selfShadowBias(normal, toViewer, probegiVolume.minSpacing, probegiVolume.selfShadowBias);
-    const vec3 local = gridCoordinates(position + kCageBias * bias, probegiVolume.origin, probegiVolume.inverseSpacing);
+    const vec3 bias = visibilityBias(normal, toViewer, minSpacing, probegiVolume.selfShadowBias, rules);
+    const vec3 moved = position + cageBias(normal, toViewer, minSpacing, probegiVolume.selfShadowBias, rules);
+    const vec3 local = gridCoordinates(moved, probegiVolume.origin, probegiVolume.inverseSpacing);
     const vec3 base = cageBase(local, counts);
     const vec3 alpha = cageAlpha(local, base);
     const vec2 texel = octTexelPosition(octEncode(normal), probegiVolume.irradianceTexels);
+    const ProbegiFront front = probegiFront(normal, ivec3(base));
+    // The pair's weight is that of the probe in front, without the share that the point's depth gives to its layer.
+    const float alongAxis = trilinearFactor(float(front.side), alpha[front.axis]);
     vec3 sum = vec3(0.0);
+    vec3 rise = vec3(0.0);
     float weightSum = 0.0;
+    float ahead = 0.0;
+    float pairWeight = 0.0;
     for (int i = 0; i < 8; ++i) {
         const ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
         const ivec3 cell = ivec3(base) + corner;
         const vec3 toProbe = probePlace(cell, probegiVolume.origin, probegiVolume.spacing) - position;
-        const float cosToProbe = cosineToProbe(dot(toProbe, normal), length(toProbe), probegiVolume.minSpacing);
+        const float cosToProbe = cosineToProbe(dot(toProbe, normal), length(toProbe), minSpacing);
         const float trilinear = trilinearFactor(float(corner.x), alpha.x) * trilinearFactor(float(corner.y), alpha.y) *
                                 trilinearFactor(float(corner.z), alpha.z);
-        const float weight = crushWeight(backfaceWeight(cosToProbe) * probegiGuard(cell, bias - toProbe)) * trilinear *
-                             probegiOutside(cell);
-        const vec3 stored = probegiStored(cell, texel);
-        sum += weight * vec3(decodeToBlendSpace(stored.x), decodeToBlendSpace(stored.y), decodeToBlendSpace(stored.z));
+        const float weight = crushWeight(backfaceWeight(cosToProbe, rules) * probegiGuard(cell, bias - toProbe)) *
+                             trilinear * probegiOutside(cell);
+        const vec3 root = probegiRoot(cell, texel);
+        sum += weight * root;
         weightSum += weight;
+        ahead += weight * dot(toProbe, normal);
+        if (front.trust > 0.0 && corner[front.axis] == front.side) {
+            const float pair = weight / alongAxis * probegiPair(cell, front);
+            rise += pair * (probegiRoot(cell + front.step, texel) - root);
+            pairWeight += pair;
+        }
     }
-    if (weightSum >= kDoubtful) {
+    if (rules == kRulesPaper || weightSum >= kDoubtful) {
         const vec3 root = sum / weightSum;
-        return root * root * kPi;
+        if (front.trust <= 0.0) return root * root * kPi;
+        const float cells = cellsAhead(ahead / weightSum, probegiVolume.spacing[front.axis], normal[front.axis]);
+        const vec3 there = vec3(rootAtSurface(root.x, rise.x, pairWeight, cells, front.trust),
+                                rootAtSurface(root.y, rise.y, pairWeight, cells, front.trust),
+                                rootAtSurface(root.z, rise.z, pairWeight, cells, front.trust));
+        return there * there * kPi;
     }
 #ifdef PROBEGI_COUNT_FALLBACKS
     atomicAdd(probegiStates.fallbacks, 1u);
 #endif
-    return completedByNeighbours(sum, weightSum, probegiNeighbours(position, normal, bias, local, texel));
+    return completedByNeighbours(sum, weightSum, probegiNeighbours(position, normal, bias, ivec3(base), texel));
 }
 
 #endif

@@ -21,9 +21,11 @@ void evaluate(INOUT(Lane) lane) {
     const vec3 base = cageBase(inGrid, counts);
     giveVec3(lane, base, 0.0f);
     giveVec3(lane, cageAlpha(inGrid, base), 0.0f);
-    const ivec3 lowest = searchLowest(inGrid, counts);
-    const ivec3 highest = searchHighest(inGrid, counts);
-    giveBits(lane, uint(probeNumber(lowest, counts)));
-    giveBits(lane, uint(probeNumber(highest, counts)));
-    giveVec3(lane, probePlace(highest, origin, spacing), 2e-6f);
+    const ivec3 neighbour = neighbourCell(ivec3(base), takeIndex(lane, kNeighbours));
+    giveBits(lane, uint(neighbour.x + 64));
+    giveBits(lane, uint(neighbour.y + 64));
+    giveBits(lane, uint(neighbour.z + 64));
+    giveBits(lane, isInGrid(neighbour, counts) ? 1u : 0u);
+    giveBits(lane, uint(probeNumber(ivec3(base), counts)));
+    giveVec3(lane, probePlace(neighbour, origin, spacing), 2e-6f);
 }

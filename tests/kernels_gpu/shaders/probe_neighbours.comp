@@ -9,7 +9,7 @@ void evaluate(INOUT(Lane) lane) {
     const float outside = takeUnit(lane);
     const vec3 toProbe = takeVector(lane, -3.0f, 3.0f);
     const vec3 normal = takeDirection(lane);
-    const vec3 sum = takeVector(lane, 0.0f, 0.01f);
+    const vec3 sum = takeVector(lane, 0.0f, 2.0f * kDoubtful);
     const vec3 neighbours = takeVector(lane, 0.0f, 20.0f);
     const float weightSum = takeBetween(lane, 0.0f, kDoubtful);
 

@@ -11,14 +11,18 @@ void evaluate(INOUT(Lane) lane) {
     const float variance = takeUnit(lane);
 
     giveVec3(lane, selfShadowBias(normal, toViewer, 1.5f, 0.3f), 1e-6f);
+    for (int rules = 0; rules < 2; ++rules) {
+        giveVec3(lane, visibilityBias(normal, toViewer, 1.5f, 0.3f, rules), 1e-6f);
+        giveVec3(lane, cageBias(normal, toViewer, 1.5f, 0.3f, rules), 1e-6f);
+        give(lane, backfaceWeight(dot(normal, toViewer), rules), 1e-6f);
+        give(lane, chebyshevWeight(mean, mean * mean + 0.01f + variance, distance, rules), 2e-4f);
+        give(lane, chebyshevWeight(0.0f, 0.0f, unit + 0.01f, rules), 1e-6f);
+        give(lane, chebyshevWeight(0.0f, 0.0f, 0.0f, rules), 1e-6f);
+        // The soft edge is steep: it magnifies a rounding of the share.
+        give(lane, outsideWeight(unit, rules), 1e-5f);
+    }
     give(lane, trilinearFactor(0.0f, unit), 1e-6f);
     give(lane, trilinearFactor(1.0f, unit), 1e-6f);
     give(lane, cosineToProbe(distance - 2.0f, distance, 0.7f), 1e-5f);
-    give(lane, backfaceWeight(dot(normal, toViewer)), 1e-6f);
-    give(lane, chebyshevWeight(mean, mean * mean + 0.01f + variance, distance), 2e-4f);
-    give(lane, chebyshevWeight(0.0f, 0.0f, unit + 0.01f), 1e-6f);
-    give(lane, chebyshevWeight(0.0f, 0.0f, 0.0f), 1e-6f);
     give(lane, crushWeight(unit), 1e-6f);
-    // The soft edge is steep: it magnifies a rounding of the share.
-    give(lane, outsideWeight(unit), 1e-5f);
 }

@@ -1,0 +1,54 @@
+// From the light that a cage's probes see to the light at the surface. Probes behind a surface do not count, so its
+// light is read up to a cell in front of it, nearer to whatever lights it: 3 to 5 % too bright on average, far more
+// under a lamp. How light changes along the normal is known from the layer of probes beyond the cage's front, and what
+// that predicts for the way back to the surface is taken away. Hardly anything is ever added: where light seems to rise
+// towards a surface, the probe beyond is mostly in the shade of something else (measured: docs/accuracy.md).
+#ifndef PROBEGI_KERNELS_SURFACE_GRADIENT_H
+#define PROBEGI_KERNELS_SURFACE_GRADIENT_H
+
+#include "kernels/probe_query.h"
+
+KERNELS_BEGIN
+
+// The largest shares of the (square root of the) light that are taken away and added. With more to add, the field is
+// too bright under trees; with nothing, noise alone would take light away and bounces would multiply the loss.
+KERNEL_CONST float kMaxTaken = 0.5f;
+KERNEL_CONST float kMaxAdded = 0.015f;
+// Weight of the pairs of probes at which their gradient is trusted in full.
+KERNEL_CONST float kTrustedWeight = 0.1f;
+// Lead of the normal's largest component over the next at which its axis counts in full.
+KERNEL_CONST float kAxisLead = 0.15f;
+
+// The axis of the grid along which a normal points most.
+KERNEL_FN int dominantAxis(vec3 normal) {
+    const vec3 a = abs(normal);
+    if (a.x >= a.y && a.x >= a.z) return 0;
+    return a.y >= a.z ? 1 : 2;
+}
+
+// How far that axis stands for the normal, 0..1: 0 where another takes over, so that round surfaces have no seams.
+KERNEL_FN float axisTrust(vec3 normal) {
+    const vec3 a = abs(normal);
+    const float largest = max(a.x, max(a.y, a.z));
+    const float smallest = min(a.x, min(a.y, a.z));
+    const float middle = a.x + a.y + a.z - largest - smallest;
+    return clamp((largest - middle) * (1.0f / kAxisLead), 0.0f, 1.0f);
+}
+
+// Cells along the axis by which the light was read in front of the surface; `ahead`: the weighted mean of the probes'
+// distance to the surface's plane, metres.
+KERNEL_FN float cellsAhead(float ahead, float axisSpacing, float normalOnAxis) {
+    return max(ahead, 0.0f) / (axisSpacing * abs(normalOnAxis));
+}
+
+// One channel at the surface. `root`: what the cage answers; `rise`: sum over the pairs of weight times what the probe
+// beyond has more than the one in front, both in the space of decodeToBlendSpace(); `pairWeight`: sum of the weights.
+KERNEL_FN Real rootAtSurface(Real root, Real rise, float pairWeight, float cells, float trust) {
+    const float known = cells * trust * min(1.0f, pairWeight * (1.0f / kTrustedWeight));
+    const Real change = rise * (known / (pairWeight + 1e-20f));  // 0 where there are no pairs
+    return root - min(max(change, root * -kMaxAdded), root * kMaxTaken);
+}
+
+KERNELS_END
+
+#endif
