@@ -5,6 +5,7 @@
 #include <new>
 
 #include "core/parallel.h"
+#include "cpu/solid_probes.h"
 #include "kernels/irradiance_decoding.h"
 #include "kernels/storage.h"
 #include "surface/probe_trace.h"
@@ -56,6 +57,7 @@ void CpuField::blend(const UpdateFrame& frame, std::span<const RayDatum> rayData
     makeBlendWeights(m_context, frame.desc, frame.directions, m_weights);
     blendProbes(m_context, frame.desc, m_layout, m_weights, rayData, {frame.hysteresis, frame.linear, frame.ditherSeed},
                 m_storage);
+    findSolidProbes(m_context, view(frame.desc), m_storage.sides);
 }
 
 Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, std::span<const RayDatum> rayData) {
@@ -121,7 +123,8 @@ Result<std::vector<float>> CpuField::brightness() const {
 FieldMemory CpuField::memory() const noexcept {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return {bytes(m_storage.irradiance), bytes(m_storage.visibility),
-            bytes(m_storage.backfaceShare) + bytes(m_irradianceTaps) + bytes(m_visibilityTaps) + sizeof(*this),
+            bytes(m_storage.backfaceShare) + bytes(m_storage.sides) + bytes(m_irradianceTaps) +
+                bytes(m_visibilityTaps) + sizeof(*this),
             bytes(m_rayData) + bytes(m_weights.irradiance) + bytes(m_weights.visibility)};
 }
 

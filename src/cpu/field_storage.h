@@ -4,10 +4,11 @@
 #include <vector>
 
 #include "field/layout.h"
+#include "kernels/solid_probe.h"
 
 namespace probegi {
 
-/// What the probes remember, in the default formats: 1,412 bytes a probe at 8x8 and 16x16 texels.
+/// What the probes remember, in the default formats: 1,432 bytes a probe at 8x8 and 16x16 texels.
 struct FieldStorage {
     explicit FieldStorage(const FieldLayout& layout);
 
@@ -16,8 +17,10 @@ struct FieldStorage {
     std::vector<std::uint16_t> irradiance;
     /// Mean (low 16 bits) and mean square (high 16 bits) of distance / maxDistance, as unorm: [probe][texel].
     std::vector<std::uint32_t> visibility;
-    /// Share of the hits that were on backfaces, 0..1, averaged over frames: [probe].
+    /// Share of the hits that were on backs and speak for solid matter, 0..1, averaged over frames: [probe].
     std::vector<float> backfaceShare;
+    /// What that share is made from: [probe].
+    std::vector<kernels::ProbeSides> sides;
 };
 
 }  // namespace probegi

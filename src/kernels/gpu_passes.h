@@ -59,6 +59,7 @@ KERNEL_CONST int kVisibilityGroupProbes = 4;  // and all their texels
 // Both blends (blend_irradiance.comp, blend_visibility.comp).
 struct BlendPush {
     uvec2 rayData;            // RayDatum[probe][ray]
+    uvec2 sides;              // ProbeSides[probe]
     uvec2 irradianceWeights;  // as WeightsPush
     uvec2 visibilityCounts;
     uvec2 visibilityWeights;
@@ -71,6 +72,12 @@ struct BlendPush {
     float newDistribution;    // Listing 3
     uint ditherSeed;
     int linear;  // 1: blendLinear
+};
+
+// Ways into the open (find_solid_probes.comp).
+struct SolidPush {
+    uvec2 sides;  // ProbeSides[probe]
+    int probes;
 };
 
 // Probe rays (trace_probes.comp) and their shading (shade_probes.comp).
@@ -109,8 +116,11 @@ struct GpuSurface {
     float metallic;
     float roughness;
     int material;
-    int backface;
+    int side;  // kSideFront, kSideBack (of a material with two sides), kSideBackface
 };
+KERNEL_CONST int kSideFront = 0;
+KERNEL_CONST int kSideBack = 1;
+KERNEL_CONST int kSideBackface = 2;
 
 // A picture, a band of rows at a time (picture_primary.comp, picture_direct.comp, picture_query.comp,
 // picture_resolve.comp).
@@ -160,7 +170,8 @@ KERNELS_END
 #ifdef __cplusplus
 namespace probegi::kernels {
 static_assert(offsetof(SceneConstants, bvh) == 124 && sizeof(SceneConstants) == 156 && sizeof(LightingBlock) == 40);
-static_assert(sizeof(WeightsPush) == 56 && sizeof(BlendPush) == 68 && sizeof(TracePush) == 44);
+static_assert(sizeof(WeightsPush) == 56 && sizeof(SolidPush) == 12 && sizeof(BlendPush) == 76 &&
+              sizeof(TracePush) == 44);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 28 && sizeof(PicturePush) == 96);
 static_assert(sizeof(ToneMapPush) == 28 && sizeof(GpuSurface) == 76 && sizeof(GpuSample) == 100);
 }  // namespace probegi::kernels

@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "kernels/bounce.h"
 #include "kernels/language.h"
+#include "kernels/probe_blend.h"
 #include "scene/sky.h"
 #include "surface/lighting.h"
 
@@ -28,7 +29,7 @@ struct TaskBuffers {
     std::vector<Ray> rays, shadowRays;
     std::vector<Hit> hits;
     std::vector<Surface> surfaces;
-    std::vector<std::uint32_t> lit;       // indices into rays of front-face hits
+    std::vector<std::uint32_t> lit;       // indices into rays of hits that reflect
     std::vector<std::uint32_t> shadowed;  // for each shadow ray: index into lit
     std::vector<glm::vec3> unshadowed;    // for each shadow ray: irradiance where it is not blocked
     std::vector<std::uint8_t> blocked;
@@ -116,8 +117,12 @@ void traceProbes(const Context& context, const GridDesc& grid, std::span<const g
         resolveHits(lighting, b, out);
         queryBounces(bounces, b);
         addDirectLight(tracer, lighting, magnitude, b);
-        for (std::size_t k = 0; k < b.lit.size(); ++k)
-            out[b.lit[k]].radiance += kernels::bounceRadiance(b.surfaces[b.lit[k]].albedo, b.irradiance[k]);
+        for (std::size_t k = 0; k < b.lit.size(); ++k) {
+            const Surface& surface = b.surfaces[b.lit[k]];
+            RayDatum& datum = out[b.lit[k]];
+            datum.radiance += kernels::bounceRadiance(surface.albedo, b.irradiance[k]);
+            if (surface.back) datum = {kernels::radianceFromBack(datum.radiance), -datum.distance};
+        }
         times.traceNs += nanoseconds(traced - start);
         times.shadeNs += nanoseconds(Clock::now() - traced);
     });

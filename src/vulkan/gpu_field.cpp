@@ -96,7 +96,7 @@ UpdateTimes GpuField::updateOnGpu(const UpdateFrame& frame, const GpuTracer& tra
     m_updatePasses = orThrow(m_profiler->read());
     return {sumOf(m_updatePasses, "trace"), sumOf(m_updatePasses, "shade"),
             sumOf(m_updatePasses, "weights") + sumOf(m_updatePasses, "blend irradiance") +
-                sumOf(m_updatePasses, "blend visibility"),
+                sumOf(m_updatePasses, "blend visibility") + sumOf(m_updatePasses, "solid probes"),
             millisecondsSince(start)};
 }
 

@@ -49,6 +49,7 @@ private:
     void recordWeights(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler);
     void recordTrace(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
                      const GpuLighting& lighting, Profiler* profiler);
+    void recordSolidProbes(const Recorder& recorder, Profiler* profiler);
     void recordBlend(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData, Profiler* profiler);
 
     Device m_device;
@@ -57,6 +58,7 @@ private:
     Image m_irradiance, m_visibility;
     Buffer m_constants;          // GpuVolume
     Buffer m_states;             // the count of fallbacks, then each probe's share of backfaces
+    Buffer m_sides;              // ProbeSides a probe
     Buffer m_directions;         // vec3 a ray
     Buffer m_irradianceWeights;  // float[ray][texel]
     Buffer m_visibilityCounts;   // uint[texel]

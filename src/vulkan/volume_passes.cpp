@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "kernels/gpu_passes.h"
+#include "kernels/solid_probe.h"
 #include "vulkan/errors.h"
 #include "vulkan/gpu_lighting_impl.h"
 #include "vulkan/gpu_scene_impl.h"
@@ -67,6 +68,8 @@ VolumePasses::VolumePasses(const Device& device, const FieldDesc& desc)
       m_states(device.impl(), "probe states", sizeof(std::uint32_t) + m_layout.probes * sizeof(float),
                vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst |
                    vk::BufferUsageFlagBits::eTransferSrc),
+      m_sides(device.impl(), "probe sides", m_layout.probes * sizeof(kernels::ProbeSides),
+              kAddressed | vk::BufferUsageFlagBits::eTransferDst),
       m_directions(device.impl(), "ray directions", m_layout.rays * sizeof(glm::vec3), kAddressed),
       m_irradianceWeights(device.impl(), "irradiance weights",
                           m_layout.rays * m_layout.irradianceTexels * sizeof(float), kAddressed),
@@ -131,7 +134,8 @@ void VolumePasses::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBi
 }
 
 FieldMemory VolumePasses::memory() const noexcept {
-    return {m_irradiance.bytes(), m_visibility.bytes(), m_states.bytes() + m_constants.bytes() + m_directions.bytes(),
+    return {m_irradiance.bytes(), m_visibility.bytes(),
+            m_states.bytes() + m_sides.bytes() + m_constants.bytes() + m_directions.bytes(),
             m_irradianceWeights.bytes() + m_visibilityCounts.bytes() + m_visibilityWeights.bytes() + m_hits.bytes() +
                 m_rayData.bytes()};
 }
@@ -161,6 +165,7 @@ void VolumePasses::recordClear(const Recorder& recorder) {
         recorder.commands().clearColorImage(image->handle(), vk::ImageLayout::eGeneral, black, all,
                                             recorder.dispatcher());
     recorder.fill(m_states, 0);
+    recorder.fill(m_sides, 0);
     m_recordedGuard = m_desc.guard;
     recorder.write(m_constants, bytesOf(constants(m_desc.guard)));
     recorder.orderAll();
@@ -216,6 +221,7 @@ void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& fram
 void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& frame, VkDeviceAddress rayData,
                                Profiler* profiler) {
     recorder.push(kernels::BlendPush{.rayData = packAddress(rayData),
+                                     .sides = packAddress(m_sides.address()),
                                      .irradianceWeights = packAddress(m_irradianceWeights.address()),
                                      .visibilityCounts = packAddress(m_visibilityCounts.address()),
                                      .visibilityWeights = packAddress(m_visibilityWeights.address()),
@@ -240,11 +246,19 @@ void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& fram
     }
 }
 
+void VolumePasses::recordSolidProbes(const Recorder& recorder, Profiler* profiler) {
+    recorder.computeToCompute();
+    const PassScope scope(recorder, m_device.impl(), profiler, "solid probes");
+    recorder.push(kernels::SolidPush{.sides = packAddress(m_sides.address()), .probes = int(m_layout.probes)});
+    recorder.dispatchOver("find_solid_probes", m_layout.probes);
+}
+
 void VolumePasses::beginUpdate(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler) {
     // Whatever can fail comes first: an update is recorded whole or not at all.
     PipelineStore& pipelines = *m_device.impl().pipelines;
     pipelines.get("blend_weights");
     pipelines.get("blend_visibility");
+    pipelines.get("find_solid_probes");
     pipelines.get("blend_irradiance", irradianceConstants(frame.desc));
     recordGuard(recorder, frame.desc);
     recorder.orderAll();
@@ -262,6 +276,7 @@ void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& fra
     beginUpdate(recorder, frame, profiler);
     recordTrace(recorder, frame, scene, lighting, profiler);
     recordBlend(recorder, frame, m_rayData.address(), profiler);
+    recordSolidProbes(recorder, profiler);
     recorder.orderAll();
 }
 
@@ -270,6 +285,7 @@ void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& fra
     beginUpdate(recorder, frame, profiler);
     recorder.computeToCompute();
     recordBlend(recorder, frame, rayData, profiler);
+    recordSolidProbes(recorder, profiler);
     recorder.orderAll();
 }
 

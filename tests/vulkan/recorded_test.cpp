@@ -200,7 +200,7 @@ TEST_F(VulkanRecorded, passesAreTimed) {
         EXPECT_LT(pass.milliseconds, 1e5);
     }
     EXPECT_EQ(names, (std::vector<std::string>{"weights", "trace", "shade", "blend irradiance", "blend visibility",
-                                               "query", "mine"}));
+                                               "solid probes", "query", "mine"}));
     EXPECT_GT((*times)[1].milliseconds, 0.0);
     const auto first = few.read();
     ASSERT_TRUE(first);

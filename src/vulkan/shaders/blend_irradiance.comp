@@ -5,6 +5,7 @@
 // (A GPU's shared memory gives a register a clock, the same for all threads or not: a thread for a texel of eight
 // probes would read 25 floats for 24 multiply-adds.)
 #include "ray_data.glsl"
+#include "sides.glsl"
 #include "volume.glsl"
 
 #include "kernels/gpu_passes.h"
@@ -27,7 +28,7 @@ const int kFours = kProbes / 4;
 // Of four probes: red, green, blue, and 1 where the ray counts.
 shared vec4 radiance[kFours][4][kRays];
 shared float weights[kRays][kTexels];
-shared uvec4 counts[kFours][kRays];  // of hits and, 16 bits higher, of backfaces, that a thread has seen while loading
+shared uvec4 counts[kFours][kRays];  // of what a thread has seen while loading: packSides()
 
 // The group's rays from `first` on, a ray of four probes a thread. What is beyond the last ray or probe counts as
 // nothing. Whole vectors are stored: no two threads write to the same one.
@@ -41,10 +42,11 @@ void loadRays(int firstProbe, int firstRay, inout uvec4 seen) {
         if (ray >= push.rays || probe >= push.probes) continue;
         const RayDatum d = RayData(push.rayData).at[probe * push.rays + ray];
         const float distance = safeDistance(d.distance);
-        const bool backface = hitBackface(distance);
-        for (int c = 0; c < 3; ++c) value[c][p] = backface ? 0.0 : safeRadiance(d.radiance[c]);
+        const vec3 light = arrivingRadiance(distance, d.radiance);
+        const bool backface = hitBackface(distance, d.radiance.x);
+        for (int c = 0; c < 3; ++c) value[c][p] = light[c];
         value[3][p] = backface ? 0.0 : 1.0;
-        seen[p] += (distance < kMissDistance ? 1u : 0u) + (backface ? 0x10000u : 0u);
+        seen[p] += packSides(distance < kMissDistance, hitBack(distance), backface);
     }
     for (int c = 0; c < 4; ++c) radiance[four][c][i] = value[c];
 }
@@ -76,11 +78,13 @@ void store(int probe, int texel, vec3 newMean) {
     }
 }
 
-void storeBackfaceShare(int local, int probe) {
-    uint sum = 0;
-    for (int i = 0; i < kRays; ++i) sum += counts[local / 4][i][local % 4];
-    const float share = backfaceShareOf(int(sum >> 16u), int(sum & 0xffffu));
-    probegiStates.backfaceShare[probe] = mix(share, probegiStates.backfaceShare[probe], push.visibilityHysteresis);
+void storeSides(int local, int probe) {
+    SidesSeen seen = SidesSeen(0, 0, 0);
+    for (int i = 0; i < kRays; ++i) seen = addSides(seen, counts[local / 4][i][local % 4]);
+    const ProbeSides sides = rememberSides(Sides(push.sides).at[probe], seen, push.rays, push.visibilityHysteresis);
+    Sides(push.sides).at[probe] = sides;
+    probegiStates.backfaceShare[probe] =
+        mix(solidShare(sides, seen, push.rays), probegiStates.backfaceShare[probe], push.visibilityHysteresis);
 }
 
 void main() {
@@ -126,5 +130,5 @@ void main() {
     counts[thread / kRays][thread % kRays] = seen;
     barrier();
     if (gl_WorkGroupID.y == 0 && thread < kProbes && firstProbe + thread < push.probes)
-        storeBackfaceShare(thread, firstProbe + thread);
+        storeSides(thread, firstProbe + thread);
 }

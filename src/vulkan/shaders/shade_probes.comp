@@ -7,6 +7,7 @@
 #include "volume.glsl"
 
 #include "kernels/bounce.h"
+#include "kernels/probe_blend.h"
 
 layout(push_constant, scalar) uniform Push {
     TracePush push;
@@ -27,7 +28,8 @@ RayDatum shade(Ray ray, Hit hit) {
     const Surface surface = surfaceAt(ray, hit);
     if (surface.backface) return RayDatum(vec3(0.0), -hit.distance);
     const vec3 e = lambertIrradiance(surface, -ray.direction);
-    return RayDatum(surface.emission + bounceRadiance(surface.albedo, e), hit.distance);
+    const vec3 radiance = surface.emission + bounceRadiance(surface.albedo, e);
+    return surface.back ? RayDatum(radianceFromBack(radiance), -hit.distance) : RayDatum(radiance, hit.distance);
 }
 
 void main() {
