@@ -52,7 +52,7 @@ void blendIrradiance(int probe, ivec2 at) {
     for (int ray = 0; ray < push.rays; ++ray) {
         const float weight = irradianceWeight(n, Vec3s(directions).at[ray]);
         const RayDatum d = RayData(push.rayData).at[probe * push.rays + ray];
-        if (!hitBackface(safeDistance(d.distance)))
+        if (!hitBackface(safeDistance(d.distance), d.radiance.x))
             sum += weight * vec3(safeRadiance(d.radiance.x), safeRadiance(d.radiance.y), safeRadiance(d.radiance.z));
         weights += weight;
     }

@@ -57,9 +57,13 @@ struct FieldDesc {
 };
 
 /// What one ray of one probe brought home. This is the seam for engines with a ray tracer of their own.
+/// Where the ray met the back of a surface, as its winding has it, `distance` is negative. A single-sided surface is
+/// solid wall from there: a backface, whose radiance does not count. What a surface with two sides sends from its back
+/// counts, and comes negative too (a black one: -1e-30): a probe that sees mostly backs may stand in a wall, whatever
+/// their material.
 struct RayDatum {
     glm::vec3 radiance{0.0f};  ///< W sr^-1 m^-2 arriving at the probe; a channel not in 0..1e30 counts as 0
-    float distance = 0.0f;     ///< metres; negative: minus the distance to a backface; a miss: anything >= 1e27
+    float distance = 0.0f;     ///< metres; negative: minus the distance to a back; a miss: anything >= 1e27
 };
 
 /// What one fixed ray of one probe brought home: the sum of both lights is what a RayDatum of that direction holds.
@@ -160,8 +164,9 @@ public:
     /// that wider neighbours answered: above a few per cent the grid is too coarse for the scene.
     std::uint64_t fallbackQueries() const noexcept;
 
-    /// Share of probe `probe`'s hits that were on backfaces, 0..1; above 0.3 the probe stands in a wall and is not
-    /// used.
+    /// Share of probe `probe`'s hits that were on backs and speak for solid matter, 0..1; above 0.3 the probe stands in
+    /// a wall and is not used. Backs of surfaces with two sides do not count while a free line leads from the probe, by
+    /// way of its neighbours, to one that sees fronts.
     float probeBackfaceShare(int probe) const noexcept;
 
     /// What probe `probe` stores: E in W m^-2 for a surface facing `normal` at the probe itself.

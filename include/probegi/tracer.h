@@ -40,6 +40,7 @@ struct Surface {
     float metallic = 0.0f;
     float roughness = 1.0f;
     std::int32_t material = -1;  ///< index into Scene::materials; -1: the tracer knows no materials
+    bool back = false;           ///< the ray met the back, by winding, whatever the material
     bool backface = false;       ///< the back of a single-sided material: solid wall
 };
 

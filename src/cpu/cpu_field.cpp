@@ -5,6 +5,7 @@
 #include <new>
 
 #include "core/parallel.h"
+#include "cpu/solid_probes.h"
 #include "kernels/irradiance_decoding.h"
 #include "kernels/storage.h"
 #include "surface/probe_emitters.h"
@@ -62,6 +63,7 @@ void CpuField::blend(const UpdateFrame& frame, std::span<const RayDatum> rayData
         m_filter.advance(m_context, frame, m_storage);
     else
         forgetFilters(m_storage, 1.0f / (1.0f - frame.hysteresis.irradiance));
+    findSolidProbes(m_context, view(frame.desc), m_storage.sides);
 }
 
 Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, std::span<const RayDatum> rayData,
@@ -133,8 +135,8 @@ Result<std::vector<float>> CpuField::brightness() const {
 FieldMemory CpuField::memory() const noexcept {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return {bytes(m_storage.irradiance), bytes(m_storage.visibility),
-            bytes(m_storage.filters) + bytes(m_storage.backfaceShare) + bytes(m_irradianceTaps) +
-                bytes(m_visibilityTaps) + sizeof(*this),
+            bytes(m_storage.filters) + bytes(m_storage.backfaceShare) + bytes(m_storage.sides) +
+                bytes(m_irradianceTaps) + bytes(m_visibilityTaps) + sizeof(*this),
             bytes(m_rayData) + bytes(m_fixedRays) + bytes(m_emitterLights) + bytes(m_weights.irradiance) +
                 bytes(m_weights.visibility) + m_filter.bytes()};
 }

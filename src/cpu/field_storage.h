@@ -4,11 +4,12 @@
 #include <vector>
 
 #include "field/layout.h"
+#include "kernels/solid_probe.h"
 #include "kernels/temporal_filter.h"
 
 namespace probegi {
 
-/// What the probes remember, in the default formats: 1,444 bytes a probe at 8x8 and 16x16 texels.
+/// What the probes remember, in the default formats: 1,464 bytes a probe at 8x8 and 16x16 texels.
 struct FieldStorage {
     explicit FieldStorage(const FieldLayout& layout);
 
@@ -19,8 +20,10 @@ struct FieldStorage {
     std::vector<std::uint32_t> visibility;
     /// Averages and windows of the temporal filter: [probe].
     std::vector<kernels::PackedProbeFilter> filters;
-    /// Share of the hits that were on backfaces, 0..1, averaged over frames: [probe].
+    /// Share of the hits that were on backs and speak for solid matter, 0..1, averaged over frames: [probe].
     std::vector<float> backfaceShare;
+    /// What that share is made from: [probe].
+    std::vector<kernels::ProbeSides> sides;
 };
 
 }  // namespace probegi

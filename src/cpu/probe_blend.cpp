@@ -39,10 +39,10 @@ void fillWeights(const Context& context, int size, std::span<const glm::vec3> di
 
 // Ray data of one block as the rows of the two products' left sides, made safe.
 struct BlockInput {
-    std::vector<float> backfaceShare;  // of each probe
-    Matrix radiance;                   // 3 rows a probe: r, g, b
-    Matrix distance;                   // 2 rows a probe: distance, distance squared, as fractions of the farthest
-    Matrix valid;                      // 1 row a probe: 0 where a ray hit a backface (BackfaceRule::excluded only)
+    std::vector<kernels::SidesSeen> seen;  // by each probe
+    Matrix radiance;                       // 3 rows a probe: r, g, b
+    Matrix distance;                       // 2 rows a probe: distance, distance squared, as fractions of the farthest
+    Matrix valid;                          // 1 row a probe: 0 where a ray hit a backface (BackfaceRule::excluded only)
     bool weighted = false;
 };
 
@@ -53,24 +53,25 @@ void gather(const FieldDesc& desc, const FieldLayout& layout, std::span<const Ra
     in.distance.resize(2 * rows, rays);
     in.weighted = desc.backfaceRule == BackfaceRule::excluded;
     if (in.weighted) in.valid.resize(rows, rays);
-    in.backfaceShare.assign(rows, 0.0f);
+    in.seen.assign(rows, {});
     for (std::size_t p = 0; p < rows; ++p) {
         const RayDatum* row = data.data() + p * rays;
-        int backfaces = 0, hits = 0;
+        kernels::SidesSeen& seen = in.seen[p];
         for (std::size_t r = 0; r < rays; ++r) {
             const RayDatum& d = row[r];
             const float distance = kernels::safeDistance(d.distance);
-            const bool backface = kernels::hitBackface(distance);
-            backfaces += backface ? 1 : 0;
-            hits += distance < kernels::kMissDistance ? 1 : 0;
-            for (int c = 0; c < 3; ++c)
-                in.radiance(3 * p + c, r) = backface ? 0.0f : kernels::safeRadiance(d.radiance[c]);
-            const float fraction = kernels::visibilityDistance(distance, layout.maxDistance);
+            const glm::vec3 radiance = kernels::arrivingRadiance(distance, d.radiance);
+            const bool backface = kernels::hitBackface(distance, d.radiance.x);
+            seen.hits += distance < kernels::kMissDistance ? 1 : 0;
+            seen.backs += kernels::hitBack(distance) ? 1 : 0;
+            seen.solidBacks += backface ? 1 : 0;
+            for (int c = 0; c < 3; ++c) in.radiance(3 * p + c, r) = radiance[c];
+            const float fraction =
+                kernels::visibilityDistance(backface ? distance : std::abs(distance), layout.maxDistance);
             in.distance(2 * p, r) = fraction;
             in.distance(2 * p + 1, r) = fraction * fraction;
             if (in.weighted) in.valid(p, r) = backface ? 0.0f : 1.0f;
         }
-        in.backfaceShare[p] = kernels::backfaceShareOf(backfaces, hits);
     }
 }
 
@@ -81,10 +82,14 @@ void divideByValidity(const Matrix& validity, Matrix& irradiance) {
             irradiance(row, texel) = kernels::withoutBackfaces(irradiance(row, texel), validity(row / 3, texel));
 }
 
+const FrameHysteresis& hysteresisOf(const BlendFrame& frame, std::size_t probe) {
+    return frame.steps.empty() ? frame.hysteresis : frame.steps[probe].hysteresis;
+}
+
 // One probe's new irradiance (rows r, g, b over the texels) joins the stored one.
 void storeIrradiance(const FieldDesc& desc, const BlendFrame& frame, const Matrix& mean, std::size_t row,
                      std::size_t probe, std::size_t texels, std::uint16_t* map) {
-    const FrameHysteresis& hysteresis = frame.steps.empty() ? frame.hysteresis : frame.steps[probe].hysteresis;
+    const FrameHysteresis& hysteresis = hysteresisOf(frame, probe);
     const kernels::BlendRule rule{hysteresis.irradiance, desc.significantChange, desc.newDistribution};
     const float* r = &mean(row, 0);
     const float* g = &mean(row + 1, 0);
@@ -117,12 +122,18 @@ float changeOf(const Matrix& mean, std::size_t row, std::size_t texels, const st
 
 void storeVisibility(const BlendFrame& frame, const Matrix& mean, std::size_t row, std::size_t probe,
                      std::size_t texels, std::uint32_t* map) {
-    const float h = frame.steps.empty() ? frame.hysteresis.visibility : frame.steps[probe].hysteresis.visibility;
+    const float h = hysteresisOf(frame, probe).visibility;
     const float* d = &mean(row, 0);
     const float* dd = &mean(row + 1, 0);
     for (std::size_t t = 0; t < texels; ++t)
         map[t] = kernels::blendVisibilityTexel(map[t], {d[t], dd[t]}, h, frame.ditherSeed,
                                                std::uint32_t(probe * texels + t));
+}
+
+void storeSides(float kept, const kernels::SidesSeen& seen, int rays, kernels::ProbeSides& sides,
+                float& backfaceShare) {
+    sides = kernels::rememberSides(sides, seen, rays, kept);
+    backfaceShare = glm::mix(kernels::solidShare(sides, seen, rays), backfaceShare, kept);
 }
 
 }  // namespace
@@ -131,7 +142,8 @@ FieldStorage::FieldStorage(const FieldLayout& layout)
     : irradiance(layout.probes * layout.irradianceTexels * 3 + 1),
       visibility(layout.probes * layout.visibilityTexels),
       filters(layout.probes),
-      backfaceShare(layout.probes) {}
+      backfaceShare(layout.probes),
+      sides(layout.probes) {}
 
 void makeBlendWeights(const Context& context, const FieldDesc& desc, std::span<const glm::vec3> directions,
                       BlendWeights& weights) {
@@ -167,10 +179,8 @@ void blendProbes(const Context& context, const FieldDesc& desc, const FieldLayou
             if (!frame.steps.empty())
                 frame.steps[probe].change = changeOf(irradiance, 3 * row, layout.irradianceTexels, map);
             storeIrradiance(desc, frame, irradiance, 3 * row, probe, layout.irradianceTexels, map);
-            float& share = storage.backfaceShare[probe];
-            share =
-                glm::mix(in.backfaceShare[row], share,
-                         frame.steps.empty() ? frame.hysteresis.visibility : frame.steps[probe].hysteresis.visibility);
+            storeSides(hysteresisOf(frame, probe).visibility, in.seen[row], int(layout.rays), storage.sides[probe],
+                       storage.backfaceShare[probe]);
             storeVisibility(frame, visibility, 2 * row, probe, layout.visibilityTexels,
                             storage.visibility.data() + probe * layout.visibilityTexels);
         }

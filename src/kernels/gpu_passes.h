@@ -87,6 +87,7 @@ KERNEL_CONST int kVisibilityGroupProbes = 4;  // and all their texels
 // Both blends (blend_irradiance.comp, blend_visibility.comp).
 struct BlendPush {
     uvec2 rayData;            // RayDatum[probe][ray]
+    uvec2 sides;              // ProbeSides[probe]
     uvec2 irradianceWeights;  // as WeightsPush
     uvec2 visibilityCounts;
     uvec2 visibilityWeights;
@@ -103,6 +104,12 @@ struct BlendPush {
     int looks;            // at emitters, a probe; 0: none
     uvec2 steps;          // GpuProbeStep[probe]: each with its own hysteresis; 0: all with the above
     uvec2 changes;        // out, where there are steps: TexelChange[block of texels][probe]
+};
+
+// Ways into the open (find_solid_probes.comp).
+struct SolidPush {
+    uvec2 sides;  // ProbeSides[probe]
+    int probes;
 };
 
 // Probe rays (trace_probes.comp), their shading (shade_probes.comp), and looks at emitters (look_at_emitters.comp).
@@ -146,8 +153,11 @@ struct GpuSurface {
     float metallic;
     float roughness;
     int material;
-    int backface;
+    int side;  // kSideFront, kSideBack (of a material with two sides), kSideBackface
 };
+KERNEL_CONST int kSideFront = 0;
+KERNEL_CONST int kSideBack = 1;
+KERNEL_CONST int kSideBackface = 2;
 
 // A picture, a band of rows at a time (picture_primary.comp, picture_direct.comp, picture_query.comp,
 // picture_resolve.comp).
@@ -197,7 +207,8 @@ KERNELS_END
 #ifdef __cplusplus
 namespace probegi::kernels {
 static_assert(offsetof(SceneConstants, bvh) == 140 && sizeof(SceneConstants) == 172 && sizeof(LightingBlock) == 40);
-static_assert(sizeof(WeightsPush) == 56 && sizeof(BlendPush) == 96 && sizeof(TracePush) == 72);
+static_assert(sizeof(WeightsPush) == 56 && sizeof(SolidPush) == 12 && sizeof(BlendPush) == 104 &&
+              sizeof(TracePush) == 72);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 28 && sizeof(PicturePush) == 96);
 static_assert(sizeof(FilterPush) == 76 && sizeof(GpuProbeStep) == 80);
 static_assert(sizeof(ToneMapPush) == 28 && sizeof(GpuSurface) == 76 && sizeof(GpuSample) == 100);

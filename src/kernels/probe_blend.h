@@ -23,9 +23,29 @@ KERNEL_FN float safeDistance(float signedDistance) {
     return select((floatBitsToUint(signedDistance) & 0x7fffffffu) > kInfinityBits, 1e30f, signedDistance);
 }
 
-// Whether a ray hit the back of a surface: the sign of its safe distance, at distance 0 too.
-KERNEL_FN bool hitBackface(float safeSignedDistance) {
+// Whether a ray met the back of a surface, by winding: the sign of its safe distance, at distance 0 too.
+KERNEL_FN bool hitBack(float safeSignedDistance) {
     return (floatBitsToUint(safeSignedDistance) & 0x80000000u) != 0u;
+}
+
+// Whether that surface is single-sided, and its back solid wall. From the back of a surface with two sides a ray brings
+// minus its radiance with minus its distance.
+KERNEL_FN bool hitBackface(float safeSignedDistance, float signedRed) {
+    return hitBack(safeSignedDistance) && (floatBitsToUint(signedRed) & 0x80000000u) == 0u;
+}
+
+// What arrives along a ray, from its datum: nothing from a backface.
+KERNEL_FN vec3 arrivingRadiance(float safeSignedDistance, vec3 signedRadiance) {
+    const bool back = hitBack(safeSignedDistance);
+    const vec3 light = back ? -signedRadiance : signedRadiance;
+    const bool dark = back && hitBackface(safeSignedDistance, signedRadiance.x);
+    return dark ? vec3(0.0f) : vec3(safeRadiance(light.x), safeRadiance(light.y), safeRadiance(light.z));
+}
+
+// The radiance of a datum from the back of a surface with two sides. A black one brings next to nothing instead of
+// nothing: no processor keeps the sign of 0 on all ways.
+KERNEL_FN vec3 radianceFromBack(vec3 radiance) {
+    return -max(radiance, vec3(1e-30f));
 }
 
 // Share of a probe's hits that were on backfaces.

@@ -106,9 +106,7 @@ KERNEL_FN void addToSight(INOUT(SightSum) sum, vec3 direction, float direct, flo
 
 // The same of an update ray: its direction changes from update to update, so that only the mean of all means something.
 KERNEL_FN void addOwnRayToSight(INOUT(SightSum) sum, vec3 radiance, float distance) {
-    const float d = safeDistance(distance);
-    const vec3 safe = vec3(safeRadiance(radiance.x), safeRadiance(radiance.y), safeRadiance(radiance.z));
-    const float light = hitBackface(d) ? 0.0f : luminance(safe);
+    const float light = luminance(arrivingRadiance(safeDistance(distance), radiance));
     for (int i = 0; i < kSightLobes; ++i) {
         sum.direct[i] += light;
         sum.rays[i] += 1.0f;

@@ -8,6 +8,7 @@
 #include "kernels/bounce.h"
 #include "kernels/colour.h"
 #include "kernels/language.h"
+#include "kernels/probe_blend.h"
 #include "scene/sky.h"
 #include "surface/lighting.h"
 #include "surface/probe_emitters.h"
@@ -30,7 +31,7 @@ struct TaskBuffers {
     std::vector<Ray> rays, shadowRays;
     std::vector<Hit> hits;
     std::vector<Surface> surfaces;
-    std::vector<std::uint32_t> lit;       // indices into rays of front-face hits
+    std::vector<std::uint32_t> lit;       // indices into rays of hits that reflect
     std::vector<std::uint32_t> shadowed;  // for each shadow ray: index into lit
     std::vector<glm::vec3> unshadowed;    // for each shadow ray: irradiance where it is not blocked
     std::vector<std::uint8_t> blocked;
@@ -107,6 +108,10 @@ struct TaskOutput {
             fixed[ray - update.size()].bounced += kernels::luminance(bounced);
         }
     }
+    // The ray met the back of a surface with two sides: see RayDatum.
+    void markBack(std::size_t ray) const {
+        if (ray < update.size()) update[ray] = {kernels::radianceFromBack(update[ray].radiance), -update[ray].distance};
+    }
 };
 
 // Distances and the radiance that does not depend on other light; lists the hits that reflect.
@@ -154,9 +159,10 @@ void traceProbes(const Context& context, const GridDesc& grid, const ProbeRayDir
         queryBounces(bounces, b);
         gatherDirectLight(tracer, lighting, magnitude, b);
         for (std::size_t k = 0; k < b.lit.size(); ++k) {
-            const glm::vec3 albedo = b.surfaces[b.lit[k]].albedo;
-            task.add(b.lit[k], kernels::bounceRadiance(albedo, b.irradiance[k]),
-                     kernels::bounceRadiance(albedo, b.bounced[k]));
+            const Surface& surface = b.surfaces[b.lit[k]];
+            task.add(b.lit[k], kernels::bounceRadiance(surface.albedo, b.irradiance[k]),
+                     kernels::bounceRadiance(surface.albedo, b.bounced[k]));
+            if (surface.back) task.markBack(b.lit[k]);
         }
         times.traceNs += nanoseconds(traced - start);
         times.shadeNs += nanoseconds(Clock::now() - traced);

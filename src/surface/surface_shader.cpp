@@ -87,7 +87,8 @@ Surface shade(const SurfaceMesh& mesh, const SurfaceTriangle& triangle, const Su
     surface.position = position;
     surface.geometricNormal = facing.geometric;
     surface.shadingNormal = facing.shading;
-    surface.backface = kernels::meetsBack(front, direction) && !material.doubleSided;
+    surface.back = kernels::meetsBack(front, direction);
+    surface.backface = surface.back && !material.doubleSided;
     surface.material = std::int32_t(triangle.material);
     shadeMaterial(surface, mesh, triangle, material, t.barycentric);
     return surface;

@@ -105,7 +105,7 @@ UpdateTimes GpuField::updateOnGpu(const UpdateFrame& frame, const GpuTracer& tra
     return {sumOf(m_updatePasses, "trace"), sumOf(m_updatePasses, "shade") + sumOf(m_updatePasses, "emitters"),
             sumOf(m_updatePasses, "weights") + sumOf(m_updatePasses, "windows") +
                 sumOf(m_updatePasses, "blend irradiance") + sumOf(m_updatePasses, "blend visibility") +
-                sumOf(m_updatePasses, "filter"),
+                sumOf(m_updatePasses, "filter") + sumOf(m_updatePasses, "solid probes"),
             millisecondsSince(start)};
 }
 

@@ -33,7 +33,8 @@ Surface surfaceOf(const kernels::GpuSurface& s) {
     surface.metallic = s.metallic;
     surface.roughness = s.roughness;
     surface.material = s.material;
-    surface.backface = s.backface != 0;
+    surface.back = s.side != kernels::kSideFront;
+    surface.backface = s.side == kernels::kSideBackface;
     return surface;
 }
 

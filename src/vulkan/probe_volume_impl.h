@@ -63,6 +63,7 @@ private:
     void recordWindows(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
                        Profiler* profiler);
     void recordFilter(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data, Profiler* profiler);
+    void recordSolidProbes(const Recorder& recorder, Profiler* profiler);
     kernels::FilterPush filterPush(const UpdateFrame& frame, const RayAddresses& data) const;
     void recordBlend(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data, Profiler* profiler);
 
@@ -72,6 +73,7 @@ private:
     Image m_irradiance, m_visibility;
     Buffer m_constants;                     // GpuVolume
     Buffer m_states;                        // the count of fallbacks, then each probe's share of backfaces
+    Buffer m_sides;                         // ProbeSides a probe
     Buffer m_filters;                       // PackedProbeFilter a probe
     Buffer m_steps, m_changes;              // what the passes of an update hand to each other
     Buffer m_directions;                    // vec3 a ray: those of the update, then the fixed ones

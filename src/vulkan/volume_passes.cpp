@@ -4,6 +4,7 @@
 
 #include "kernels/gpu_passes.h"
 #include "kernels/probe_query.h"
+#include "kernels/solid_probe.h"
 #include "surface/probe_emitters.h"
 #include "vulkan/errors.h"
 #include "vulkan/gpu_lighting_impl.h"
@@ -69,6 +70,8 @@ VolumePasses::VolumePasses(const Device& device, const FieldDesc& desc)
       m_states(device.impl(), "probe states", sizeof(std::uint32_t) + m_layout.probes * sizeof(float),
                vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst |
                    vk::BufferUsageFlagBits::eTransferSrc),
+      m_sides(device.impl(), "probe sides", m_layout.probes * sizeof(kernels::ProbeSides),
+              kAddressed | vk::BufferUsageFlagBits::eTransferDst),
       m_filters(device.impl(), "temporal filters", m_layout.probes * sizeof(kernels::PackedProbeFilter),
                 kAddressed | vk::BufferUsageFlagBits::eTransferDst),
       m_steps(device.impl(), "temporal steps", m_layout.probes * sizeof(kernels::GpuProbeStep), kAddressed),
@@ -143,7 +146,7 @@ void VolumePasses::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBi
 
 FieldMemory VolumePasses::memory() const noexcept {
     return {m_irradiance.bytes(), m_visibility.bytes(),
-            m_states.bytes() + m_filters.bytes() + m_constants.bytes() + m_directions.bytes(),
+            m_states.bytes() + m_sides.bytes() + m_filters.bytes() + m_constants.bytes() + m_directions.bytes(),
             m_irradianceWeights.bytes() + m_visibilityCounts.bytes() + m_visibilityWeights.bytes() + m_hits.bytes() +
                 m_rayData.bytes() + m_fixedRays.bytes() + m_emitterLights.bytes() + m_steps.bytes() +
                 m_changes.bytes()};
@@ -181,6 +184,7 @@ void VolumePasses::recordClear(const Recorder& recorder) {
                                             recorder.dispatcher());
     recorder.fill(m_states, 0);
     recorder.fill(m_filters, 0);
+    recorder.fill(m_sides, 0);
     m_recordedGuard = m_desc.guard;
     recorder.write(m_constants, bytesOf(constants(m_desc.guard)));
     recorder.orderAll();
@@ -245,6 +249,7 @@ void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& fram
 void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
                                Profiler* profiler) {
     recorder.push(kernels::BlendPush{.rayData = packAddress(data.update),
+                                     .sides = packAddress(m_sides.address()),
                                      .irradianceWeights = packAddress(m_irradianceWeights.address()),
                                      .visibilityCounts = packAddress(m_visibilityCounts.address()),
                                      .visibilityWeights = packAddress(m_visibilityWeights.address()),
@@ -286,8 +291,8 @@ void VolumePasses::recordWindows(const Recorder& recorder, const UpdateFrame& fr
 
 void VolumePasses::recordFilter(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
                                 Profiler* profiler) {
-    const PassScope scope(recorder, m_device.impl(), profiler, "filter");
     recorder.computeToCompute();
+    const PassScope scope(recorder, m_device.impl(), profiler, "filter");
     recorder.push(filterPush(frame, data));
     recorder.dispatchOver("probe_filter", m_layout.probes);
 }
@@ -310,11 +315,18 @@ kernels::FilterPush VolumePasses::filterPush(const UpdateFrame& frame, const Ray
             .forget = frame.windows ? 0 : 1};
 }
 
+void VolumePasses::recordSolidProbes(const Recorder& recorder, Profiler* profiler) {
+    const PassScope scope(recorder, m_device.impl(), profiler, "solid probes");
+    recorder.push(kernels::SolidPush{.sides = packAddress(m_sides.address()), .probes = int(m_layout.probes)});
+    recorder.dispatchOver("find_solid_probes", m_layout.probes);
+}
+
 void VolumePasses::beginUpdate(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler) {
     // Whatever can fail comes first: an update is recorded whole or not at all.
     PipelineStore& pipelines = *m_device.impl().pipelines;
     for (const char* shader : {"blend_weights", "probe_lag", "probe_windows", "probe_filter"}) pipelines.get(shader);
     pipelines.get("blend_visibility");
+    pipelines.get("find_solid_probes");
     pipelines.get("blend_irradiance", irradianceConstants(frame.desc));
     recordGuard(recorder, frame.desc);
     recorder.orderAll();
@@ -349,6 +361,7 @@ void VolumePasses::recordRest(const Recorder& recorder, const UpdateFrame& frame
     recordWindows(recorder, frame, data, profiler);
     recordBlend(recorder, frame, data, profiler);
     recordFilter(recorder, frame, data, profiler);
+    recordSolidProbes(recorder, profiler);
     recorder.orderAll();
 }
 

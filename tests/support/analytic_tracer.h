@@ -105,6 +105,7 @@ private:
         const Material& m = materials[std::size_t(s.material)];
         const bool fromBehind = glm::dot(front, ray.direction) > 0;
         s.geometricNormal = s.shadingNormal = fromBehind ? -front : front;
+        s.back = fromBehind;
         s.backface = fromBehind && !m.doubleSided;
         if (s.backface) return s;
         s.albedo = glm::vec3(m.baseColor);

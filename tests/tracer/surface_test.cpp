@@ -49,6 +49,7 @@ TEST_P(TracerSurface, FrontOfASingleSidedMaterial) {
     s.add(quad(s.addMaterial(glowing())));
     const Shot shot = shoot(*trace(GetParam(), s), kDown);
     EXPECT_FALSE(shot.surface.backface);
+    EXPECT_FALSE(shot.surface.back);
     EXPECT_EQ(shot.surface.material, 1);
     EXPECT_EQ(shot.surface.albedo, glm::vec3(0.25f, 0.5f, 0.75f));
     EXPECT_EQ(shot.surface.emission, glm::vec3(3, 2, 1));
@@ -65,22 +66,25 @@ TEST_P(TracerSurface, BackOfASingleSidedMaterialIsBlack) {
     ASSERT_TRUE(shot.hit.valid()) << "backs are not culled";
     EXPECT_TRUE(shot.blocked);
     EXPECT_TRUE(shot.surface.backface);
+    EXPECT_TRUE(shot.surface.back);
     EXPECT_EQ(shot.surface.albedo, glm::vec3(0));
     EXPECT_EQ(shot.surface.emission, glm::vec3(0));
     expectNear(shot.surface.geometricNormal, {0, -1, 0}, 1e-6f);
     expectNear(shot.surface.shadingNormal, {0, -1, 0}, 1e-6f);
 }
 
-TEST_P(TracerSurface, DoubleSidedMaterialsHaveNoBack) {
+TEST_P(TracerSurface, DoubleSidedMaterialsHaveNoBackface) {
     TestScene s;
     Material m = glowing();
     m.doubleSided = true;
     s.add(quad(s.addMaterial(m)));
     const Shot shot = shoot(*trace(GetParam(), s), kUp);
     EXPECT_FALSE(shot.surface.backface);
+    EXPECT_TRUE(shot.surface.back) << "but a winding";
     EXPECT_EQ(shot.surface.albedo, glm::vec3(0.25f, 0.5f, 0.75f));
     EXPECT_EQ(shot.surface.emission, glm::vec3(3, 2, 1));
     expectNear(shot.surface.geometricNormal, {0, -1, 0}, 1e-6f);
+    EXPECT_FALSE(shoot(*trace(GetParam(), s), kDown).surface.back);
 }
 
 TEST_P(TracerSurface, MirroredPlacementsKeepTheirFront) {
@@ -97,6 +101,10 @@ TEST_P(TracerSurface, MirroredPlacementsKeepTheirFront) {
         EXPECT_FALSE(shoot(*tracer, kDown).surface.backface);
         EXPECT_TRUE(shoot(*tracer, kUp).surface.backface);
         expectNear(shoot(*tracer, kDown).surface.geometricNormal, {0, 1, 0}, 1e-6f);
+        s.scene.materials[0].doubleSided = true;
+        const auto twoSided = trace(GetParam(), s);
+        EXPECT_FALSE(shoot(*twoSided, kDown).surface.back);
+        EXPECT_TRUE(shoot(*twoSided, kUp).surface.back);
     }
 }
 

@@ -231,8 +231,8 @@ TEST_F(VulkanRecorded, passesAreTimed) {
         EXPECT_GE(pass.milliseconds, 0.0);
         EXPECT_LT(pass.milliseconds, 1e5);
     }
-    EXPECT_EQ(names, (std::vector<std::string>{"weights", "trace", "shade", "emitters", "blend irradiance",
-                                               "blend visibility", "query", "mine"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"weights", "trace", "shade", "emitters", "windows", "blend irradiance",
+                                               "blend visibility", "filter", "solid probes", "query", "mine"}));
     EXPECT_GT((*times)[1].milliseconds, 0.0);
     const auto first = few.read();
     ASSERT_TRUE(first);

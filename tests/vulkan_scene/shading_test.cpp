@@ -217,6 +217,7 @@ void expectSame(const Answer& a, const Surface& s) {
     EXPECT_NEAR(a.metallic, s.metallic, kTolerance);
     EXPECT_NEAR(a.roughness, s.roughness, kTolerance);
     EXPECT_EQ(a.material, s.material);
+    EXPECT_EQ(a.back != 0, s.back);
     EXPECT_EQ(a.backface != 0, s.backface);
 }
 

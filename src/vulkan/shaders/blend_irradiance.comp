@@ -7,6 +7,7 @@
 #include "emitter_lights.glsl"
 #include "filter.glsl"
 #include "ray_data.glsl"
+#include "sides.glsl"
 #include "volume.glsl"
 
 #include "kernels/gpu_passes.h"
@@ -30,7 +31,7 @@ const int kFours = kProbes / 4;
 shared vec4 radiance[kFours][4][kRays];
 shared float weights[kRays][kTexels];
 shared TexelChange changes[kProbes][kTexelThreads];  // of a probe's texels in a thread
-shared uvec4 counts[kFours][kRays];  // of hits and, 16 bits higher, of backfaces, that a thread has seen while loading
+shared uvec4 counts[kFours][kRays];                  // of what a thread has seen while loading: packSides()
 
 // The group's rays from `first` on, a ray of four probes a thread. What is beyond the last ray or probe counts as
 // nothing. Whole vectors are stored: no two threads write to the same one.
@@ -44,10 +45,11 @@ void loadRays(int firstProbe, int firstRay, inout uvec4 seen) {
         if (ray >= push.rays || probe >= push.probes) continue;
         const RayDatum d = RayData(push.rayData).at[probe * push.rays + ray];
         const float distance = safeDistance(d.distance);
-        const bool backface = hitBackface(distance);
-        for (int c = 0; c < 3; ++c) value[c][p] = backface ? 0.0 : safeRadiance(d.radiance[c]);
+        const vec3 light = arrivingRadiance(distance, d.radiance);
+        const bool backface = hitBackface(distance, d.radiance.x);
+        for (int c = 0; c < 3; ++c) value[c][p] = light[c];
         value[3][p] = backface ? 0.0 : 1.0;
-        seen[p] += (distance < kMissDistance ? 1u : 0u) + (backface ? 0x10000u : 0u);
+        seen[p] += packSides(distance < kMissDistance, hitBack(distance), backface);
     }
     for (int c = 0; c < 4; ++c) radiance[four][c][i] = value[c];
 }
@@ -96,13 +98,15 @@ vec3 fromEmitters(int probe, int texel) {
     return sum;
 }
 
-void storeBackfaceShare(int local, int probe) {
-    uint sum = 0;
-    for (int i = 0; i < kRays; ++i) sum += counts[local / 4][i][local % 4];
-    const float share = backfaceShareOf(int(sum >> 16u), int(sum & 0xffffu));
+void storeSides(int local, int probe) {
+    SidesSeen seen = SidesSeen(0, 0, 0);
+    for (int i = 0; i < kRays; ++i) seen = addSides(seen, counts[local / 4][i][local % 4]);
     const float kept =
         push.steps == uvec2(0u) ? push.visibilityHysteresis : ProbeSteps(push.steps).at[probe].visibilityKept;
-    probegiStates.backfaceShare[probe] = mix(share, probegiStates.backfaceShare[probe], kept);
+    const ProbeSides sides = rememberSides(Sides(push.sides).at[probe], seen, push.rays, kept);
+    Sides(push.sides).at[probe] = sides;
+    probegiStates.backfaceShare[probe] =
+        mix(solidShare(sides, seen, push.rays), probegiStates.backfaceShare[probe], kept);
 }
 
 void storeChange(int local, int probe) {
@@ -158,6 +162,6 @@ void main() {
     counts[thread / kRays][thread % kRays] = seen;
     barrier();
     if (thread >= kProbes || firstProbe + thread >= push.probes) return;
-    if (gl_WorkGroupID.y == 0) storeBackfaceShare(thread, firstProbe + thread);
+    if (gl_WorkGroupID.y == 0) storeSides(thread, firstProbe + thread);
     if (push.steps != uvec2(0u)) storeChange(thread, firstProbe + thread);
 }

@@ -46,8 +46,10 @@ void loadDistances(int firstProbe, int first) {
         vec4 d;
         for (int p = 0; p < kProbes; ++p) {
             const int probe = min(firstProbe + p, push.probes - 1);
-            const float distance = RayData(push.rayData).at[probe * push.rays + first + i].distance;
-            d[p] = visibilityDistance(safeDistance(distance), push.maxDistance);
+            const RayDatum datum = RayData(push.rayData).at[probe * push.rays + first + i];
+            const float distance = safeDistance(datum.distance);
+            const bool backface = hitBackface(distance, datum.radiance.x);
+            d[p] = visibilityDistance(backface ? distance : abs(distance), push.maxDistance);
         }
         distances[i] = d;
     }

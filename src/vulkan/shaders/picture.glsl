@@ -22,6 +22,7 @@ Surface sampleSurface(GpuSample s) {
     surface.metallic = s.metallic;
     surface.roughness = s.roughness;
     surface.material = 0;
+    surface.back = s.kind == kSampleBackface;
     surface.backface = s.kind == kSampleBackface;
     return surface;
 }

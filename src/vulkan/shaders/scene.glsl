@@ -256,7 +256,8 @@ Surface surfaceAt(Ray ray, Hit hit) {
     surface.geometricNormal = facing.geometric;
     surface.shadingNormal = facing.shading;
     surface.material = int(t.triangle.material);
-    surface.backface = meetsBack(front, ray.direction) && material.doubleSided == 0;
+    surface.back = meetsBack(front, ray.direction);
+    surface.backface = surface.back && material.doubleSided == 0;
     sceneShade(surface, t, material);
     return surface;
 }

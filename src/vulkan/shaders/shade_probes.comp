@@ -9,6 +9,7 @@
 #include "kernels/bounce.h"
 #include "kernels/colour.h"
 #include "kernels/emitter_sampling.h"
+#include "kernels/probe_blend.h"
 
 layout(push_constant, scalar) uniform Push {
     TracePush push;
@@ -18,8 +19,14 @@ layout(push_constant, scalar) uniform Push {
 struct RayLight {
     vec3 direct;
     vec3 bounced;
-    float distance;  // as RayDatum's
+    float distance;  // metres; negative: minus the distance to a backface
+    bool back;       // of a surface with two sides
 };
+
+RayDatum datumOf(RayLight light) {
+    const vec3 radiance = light.direct + light.bounced;
+    return light.back ? RayDatum(radianceFromBack(radiance), -light.distance) : RayDatum(radiance, light.distance);
+}
 
 vec3 punctualIrradiance(Surface surface) {
     vec3 e = vec3(0.0);
@@ -37,14 +44,14 @@ float rayShare(Surface surface, float distance, bool isFixed) {
 }
 
 RayLight shade(Ray ray, Hit hit, bool isFixed) {
-    if (hit.primitive < 0) return RayLight(skyRadianceAt(ray.direction), vec3(0.0), kNoHitDistance);
+    if (hit.primitive < 0) return RayLight(skyRadianceAt(ray.direction), vec3(0.0), kNoHitDistance, false);
     const Surface surface = surfaceAt(ray, hit);
-    if (surface.backface) return RayLight(vec3(0.0), vec3(0.0), -hit.distance);
+    if (surface.backface) return RayLight(vec3(0.0), vec3(0.0), -hit.distance, false);
     vec3 bounced = vec3(0.0);
     if (push.bounces != 0) bounced = probegiIrradiance(surface.position, surface.shadingNormal, -ray.direction);
     return RayLight(rayShare(surface, hit.distance, isFixed) * surface.emission +
                         bounceRadiance(surface.albedo, punctualIrradiance(surface)),
-                    bounceRadiance(surface.albedo, bounced), hit.distance);
+                    bounceRadiance(surface.albedo, bounced), hit.distance, surface.back);
 }
 
 void main() {
@@ -58,7 +65,7 @@ void main() {
     const Ray ray = Ray(origin, 0.0, Vec3s(push.directions).at[rayIndex], kNoHitDistance);
     const RayLight light = shade(ray, Hits(push.hits).at[index], rayIndex >= push.rays);
     if (rayIndex < push.rays)
-        RayData(push.rayData).at[probe * push.rays + rayIndex] = RayDatum(light.direct + light.bounced, light.distance);
+        RayData(push.rayData).at[probe * push.rays + rayIndex] = datumOf(light);
     else
         FixedRays(push.fixedRays).at[probe * push.fixedRayCount + rayIndex - push.rays] =
             FixedRayDatum(luminance(light.direct), luminance(light.bounced), light.distance);

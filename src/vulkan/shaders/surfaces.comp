@@ -16,6 +16,7 @@ void main() {
     if (hit.primitive < 0) return;
     useSceneOnly();
     const Surface s = surfaceAt(Rays(push.rays).at[index], hit);
-    Surfaces(push.results).at[index] = GpuSurface(s.position, s.geometricNormal, s.shadingNormal, s.albedo, s.emission,
-                                                  s.metallic, s.roughness, s.material, s.backface ? 1 : 0);
+    Surfaces(push.results).at[index] =
+        GpuSurface(s.position, s.geometricNormal, s.shadingNormal, s.albedo, s.emission, s.metallic, s.roughness,
+                   s.material, s.backface ? kSideBackface : (s.back ? kSideBack : kSideFront));
 }

@@ -33,6 +33,7 @@ struct Surface {
     float metallic;
     float roughness;
     int material;   // index into Scene::materials
+    bool back;      // the ray met the back, by winding, whatever the material
     bool backface;  // the back of a single-sided material: solid wall
 };
 

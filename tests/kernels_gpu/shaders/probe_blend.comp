@@ -18,8 +18,12 @@ void evaluate(INOUT(Lane) lane) {
     const float anything = uintBitsToFloat(takeBits(lane));
     give(lane, safeRadiance(anything), 1e-6f);
     give(lane, safeDistance(anything), 1e-6f);
-    giveBits(lane, hitBackface(safeDistance(anything)) ? 1u : 0u);
-    giveBits(lane, hitBackface(signedDistance) ? 1u : 0u);
+    giveBits(lane, hitBack(safeDistance(anything)) ? 1u : 0u);
+    giveBits(lane, hitBack(signedDistance) ? 1u : 0u);
+    giveBits(lane, hitBackface(signedDistance, anything) ? 1u : 0u);
+    giveVec3(lane, arrivingRadiance(signedDistance, vec3(anything, ray.x, ray.y)), 1e-6f);
+    giveVec3(lane, radianceFromBack(newMean), 1e-6f);
+    give(lane, arrivingRadiance(-1.0f, radianceFromBack(vec3(0.0f))).x, 1e-6f);
     give(lane, backfaceShareOf(int(oldStored.x * 10.0f), int(oldStored.y * 10.0f)), 1e-6f);
     give(lane, normalisingFactor(newMean.x), 1e-6f);
     give(lane, normalisingFactor(0.0f), 0.0f);

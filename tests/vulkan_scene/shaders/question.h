@@ -23,6 +23,7 @@ struct Answer {
     float metallic;
     float roughness;
     int material;
+    int back;
     int backface;
     int passes;
     vec3 sky;

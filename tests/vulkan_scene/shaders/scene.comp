@@ -40,6 +40,7 @@ void main() {
     a.metallic = s.metallic;
     a.roughness = s.roughness;
     a.material = s.material;
+    a.back = int(s.back);
     a.backface = int(s.backface);
     a.passes = int(alphaPasses(q.instance, q.geometry, q.primitive, q.barycentric));
     a.sky = skyRadianceAt(q.direction);

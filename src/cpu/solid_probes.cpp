@@ -1,0 +1,50 @@
+#include "cpu/solid_probes.h"
+
+#include <glm/geometric.hpp>
+
+#include "core/parallel.h"
+#include "kernels/gpu_volume.h"
+#include "kernels/probe_cage.h"
+
+namespace probegi {
+
+namespace {
+
+// Steps into the open by way of the 26 neighbours.
+std::uint32_t stepsByNeighbours(const FieldView& view, std::span<const kernels::ProbeSides> sides, int probe) {
+    const GridDesc& grid = view.desc->grid;
+    const glm::ivec3 cell = kernels::gpuProbeCell(probe, grid.counts);
+    const glm::ivec3 lowest = glm::max(cell - 1, glm::ivec3(0)), highest = glm::min(cell + 1, grid.counts - 1);
+    std::uint32_t steps = kernels::kNoWayOut;
+    for (int z = lowest.z; z <= highest.z; ++z)
+        for (int y = lowest.y; y <= highest.y; ++y)
+            for (int x = lowest.x; x <= highest.x; ++x) {
+                const int neighbour = kernels::probeNumber({x, y, z}, grid.counts);
+                const std::uint32_t by = kernels::stepsBy(sides[std::size_t(neighbour)].steps);
+                if (by >= steps || neighbour == probe) continue;
+                const glm::vec3 way = glm::vec3(glm::ivec3(x, y, z) - cell) * grid.spacing;
+                const float distance = glm::length(way);
+                const glm::vec3 direction = way / distance;
+                if (kernels::freeWay(probeMoments(view, probe, direction).x,
+                                     probeMoments(view, neighbour, -direction).x, distance * view.inverseMaxDistance))
+                    steps = by;
+            }
+    return steps;
+}
+
+}  // namespace
+
+void findSolidProbes(const Context& context, const FieldView& view, std::span<kernels::ProbeSides> sides) {
+    parallelFor(context, sides.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t probe = begin; probe < end; ++probe) {
+            kernels::ProbeSides& own = sides[probe];
+            const std::uint32_t found =
+                kernels::looksForWay(own) ? stepsByNeighbours(view, sides, int(probe)) : kernels::kNoWayOut;
+            const kernels::ProbeSides next = kernels::foundWay(own, found);
+            own.nextSteps = next.nextSteps;
+            own.trust = next.trust;
+        }
+    });
+}
+
+}  // namespace probegi

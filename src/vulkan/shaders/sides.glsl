@@ -1,0 +1,13 @@
+// kernels/solid_probe.h's ProbeSides in a buffer.
+#ifndef PROBEGI_SIDES_GLSL
+#define PROBEGI_SIDES_GLSL
+
+#include "common.glsl"
+
+#include "kernels/solid_probe.h"
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Sides {
+    ProbeSides at[];
+};
+
+#endif

@@ -1,0 +1,62 @@
+// The truth of a closed scene does not depend on whether its materials have one side or two, and neither may the field.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analytic/field_scene.h"
+
+namespace probegi {
+namespace {
+
+Scene withSides(std::string_view name, bool doubleSided) {
+    Scene scene = *makeBuiltinScene(name);
+    for (Material& material : scene.materials) material.doubleSided = doubleSided;
+    return scene;
+}
+
+struct SidesDifference {
+    double rms = 0;  ///< root of the mean square difference at surface points, over the mean
+    int solid = 0;   ///< probes in walls
+};
+
+// The same probes and rays in both.
+SidesDifference measureSides(std::string_view name, const GridDesc& grid, int updates) {
+    FieldDesc desc;
+    desc.raysPerProbe = 64;
+    test::FieldScene one(withSides(name, false), grid, desc), two(withSides(name, true), grid, desc);
+    one.run(updates);
+    two.run(updates);
+    const auto queries = one.surfaceQueries(3000);
+    double square = 0, mean = 0;
+    for (const FieldQuery& q : queries) {
+        const double a = two.field.irradiance(q).y, b = one.field.irradiance(q).y;
+        square += (a - b) * (a - b);
+        mean += b;
+    }
+    SidesDifference d{std::sqrt(square * double(queries.size())) / mean, 0};
+    for (int probe = 0; probe < probeCount(grid); ++probe) d.solid += one.field.probeBackfaceShare(probe) > 0.3f;
+    return d;
+}
+
+// A layer of probes lies in the plane of the wall between the rooms.
+TEST(FieldSides, roomsAreTheSameWithDoubleSidedWalls) {
+    for (const char* name : {"two-rooms", "dark-room"}) {
+        const SidesDifference d = measureSides(name, {{-7, -1.2f, -4}, glm::vec3(1), {15, 6, 9}}, 24);
+        EXPECT_GT(d.solid, 15) << name;
+        EXPECT_LT(d.rms, 1e-3) << name;
+    }
+}
+
+// Thick walls, ground, furniture and closed leaves that stand in each other.
+TEST(FieldSides, theHouseIsTheSameWithDoubleSidedWalls) {
+    const Scene scene = *makeBuiltinScene("house");
+    const GridDesc grid = *placeGrid(poseAt(scene).bounds, {.targetProbes = 1500});
+    const SidesDifference d = measureSides("house", grid, 24);
+    EXPECT_GT(d.solid, 15);
+    EXPECT_LT(d.rms, 0.02);
+    RecordProperty("rms", std::to_string(d.rms));
+    RecordProperty("solid", d.solid);
+}
+
+}  // namespace
+}  // namespace probegi

@@ -1,0 +1,89 @@
+#include "kernels/solid_probe.h"
+
+#include <gtest/gtest.h>
+
+namespace probegi::kernels {
+namespace {
+
+/// A probe just behind a curtain: as many backs as fronts.
+constexpr ProbeSides kDoubtful{0.45f, 0.5f, kNoWayOut, kNoWayOut, 0u};
+
+TEST(SolidProbe, frontsAndBacksTellRoomsFromWalls) {
+    EXPECT_FALSE(mayBeSolid({0.2f, 0.7f, 0u, 0u, 0u}));
+    EXPECT_TRUE(mayBeSolid({0.3f, 0.7f, 0u, 0u, 0u}));
+    EXPECT_FALSE(mayBeSolid({0, 0, 0u, 0u, 0u})) << "hits nothing";
+    EXPECT_TRUE(looksForWay(kDoubtful));
+    EXPECT_FALSE(looksForWay({1.0f, 0.0f, 0u, 0u, 0u})) << "in a wall";
+    EXPECT_FALSE(looksForWay({0.4f, 0.1f, 0u, 0u, 0u})) << "in the void around a level";
+    EXPECT_FALSE(looksForWay({0.1f, 0.9f, 0u, 0u, 0u})) << "in a room";
+}
+
+TEST(SolidProbe, whatIsRememberedFollowsTheHysteresis) {
+    const ProbeSides sides = rememberSides({0.5f, 0.25f, 3u, 7u, 5u}, {60, 20, 10}, 100, 0.75f);
+    EXPECT_FLOAT_EQ(sides.backs, 0.75f * 0.5f + 0.25f * 0.2f);
+    EXPECT_FLOAT_EQ(sides.fronts, 0.75f * 0.25f + 0.25f * 0.4f);
+    EXPECT_EQ(sides.steps, 7u);
+}
+
+TEST(SolidProbe, backsOfTwoSidesCountWhereNoWayLeadsOut) {
+    const SidesSeen seen{80, 40, 4};
+    ProbeSides sides = kDoubtful;
+    EXPECT_FLOAT_EQ(solidShare(sides, seen, 100), 0.5f);
+    sides.steps = 2;
+    EXPECT_FLOAT_EQ(solidShare(sides, seen, 100), 0.05f);
+    EXPECT_FLOAT_EQ(solidShare(sides, {80, 78, 4}, 100), 78.0f / 80) << "a door moved over it";
+    sides.steps = 0;
+    EXPECT_FLOAT_EQ(solidShare(sides, seen, 100), 0.5f) << "0 steps is no way for a probe in doubt";
+    EXPECT_FLOAT_EQ(solidShare({0.1f, 0.8f, 0u, 0u, 0u}, seen, 100), 0.05f);
+    EXPECT_FLOAT_EQ(solidShare(sides, {0, 0, 0}, 100), 0.0f);
+}
+
+TEST(SolidProbe, aWallBetweenTwoProbesLeavesNoFreeWay) {
+    // A surface between: what one sees and what the other sees add up to the way.
+    for (float share = 0; share <= 1; share += 0.1f) EXPECT_FALSE(freeWay(share, 1 - share, 1.0f));
+    EXPECT_TRUE(freeWay(1.0f, 1.0f, 1.0f));
+    EXPECT_FALSE(freeWay(1.0f, 0.75f, 1.0f));
+    EXPECT_FALSE(freeWay(0.75f, 1.0f, 1.0f));
+}
+
+TEST(SolidProbe, waysOpenWithTrustAndCloseWithoutIt) {
+    ProbeSides sides = kDoubtful;
+    for (uint update = 1; update < kEnoughTrust; ++update) {
+        sides = foundWay(sides, 3);
+        EXPECT_EQ(sides.nextSteps, kNoWayOut);
+        sides.steps = sides.nextSteps;
+    }
+    for (uint update = 0; update < 20; ++update) {
+        sides = foundWay(sides, 3);
+        EXPECT_EQ(sides.nextSteps, 3u);
+        sides.steps = sides.nextSteps;
+    }
+    EXPECT_EQ(sides.trust, kMostTrust);
+    for (uint update = 1; update < kMostTrust; ++update) {
+        sides = foundWay(sides, kNoWayOut);
+        EXPECT_EQ(sides.nextSteps, 3u) << "noise";
+        sides.steps = sides.nextSteps;
+    }
+    EXPECT_EQ(foundWay(sides, kNoWayOut).nextSteps, kNoWayOut);
+    EXPECT_EQ(foundWay({0.0f, 0.9f, kNoWayOut, kNoWayOut, 5u}, kNoWayOut).nextSteps, 0u) << "in the open";
+    EXPECT_EQ(foundWay({1.0f, 0.0f, 3u, 3u, 16u}, kNoWayOut).nextSteps, kNoWayOut) << "in a wall";
+}
+
+TEST(SolidProbe, waysHaveAnEnd) {
+    EXPECT_EQ(stepsBy(0u), 1u);
+    EXPECT_EQ(stepsBy(kLongestWay - 1), kLongestWay);
+    EXPECT_EQ(stepsBy(kLongestWay), kNoWayOut);
+    EXPECT_EQ(stepsBy(kNoWayOut), kNoWayOut);
+}
+
+TEST(SolidProbe, packedSidesAddUp) {
+    uint packed = 0;
+    for (int ray = 0; ray < 256; ++ray) packed += packSides(true, ray % 2 == 0, ray % 4 == 0);
+    const SidesSeen seen = addSides(addSides({0, 0, 0}, packed), packSides(true, true, false));
+    EXPECT_EQ(seen.hits, 257);
+    EXPECT_EQ(seen.backs, 129);
+    EXPECT_EQ(seen.solidBacks, 64);
+}
+
+}  // namespace
+}  // namespace probegi::kernels
