@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 
+#include "backend.h"
 #include "markdown.h"
 #include "parse.h"
 #include "terminal.h"
@@ -50,19 +51,22 @@ tool::ReportSettings settingsOf(const Options& options) {
     settings.seconds = 0;
     settings.samplesPerPixel = options.samplesPerPixel;
     settings.ratioProbes = 512;
+    settings.realtimeUpdates = kRealtimeUpdates;
     return settings;
 }
 
 Result<void> measure(const Options& options) {
     const auto context = tool::makeContext(options.threads);
     if (!context) return tl::unexpected(context.error());
+    const auto backend = tool::openBackend(*context, {});
+    if (!backend) return tl::unexpected(backend.error());
     std::vector<MeasuredScene> scenes;
     const auto wanted = [&](const std::string& name) { return options.only.empty() || options.only == name; };
     for (const Case& entry : cases(options)) {
         if (!wanted(entry.name)) continue;
         const auto setup = tool::loadSetup(entry.options);
         if (!setup) return tl::unexpected(setup.error());
-        auto rendered = tool::renderForReport(*context, *setup, settingsOf(options));
+        auto rendered = tool::renderForReport(*context, **backend, *setup, settingsOf(options));
         if (!rendered) return tl::unexpected(rendered.error());
         scenes.push_back({entry.name, std::move(*rendered)});
     }

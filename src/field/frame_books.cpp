@@ -39,17 +39,17 @@ UpdateFrame FrameBooks::comingUpdate() const noexcept {
             .bounces = m_frame > 0};
 }
 
-UpdateFrame FrameBooks::comingAverage(float kept) const noexcept {
+UpdateFrame FrameBooks::comingAverage(FrameHysteresis kept) const noexcept {
     UpdateFrame frame = comingUpdate();
-    frame.hysteresis = {kept, kept};
+    frame.hysteresis = kept;
     frame.linear = true;
     return frame;
 }
 
-void FrameBooks::advance() {
+void FrameBooks::advance(bool turn) {
     m_events.advance();
     ++m_frame;
-    turnRays();
+    if (turn) turnRays();
 }
 
 }  // namespace probegi

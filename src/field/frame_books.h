@@ -35,10 +35,10 @@ public:
 
     /// The coming update by the paper: in encoded space, with the described hysteresis. Valid until advance().
     UpdateFrame comingUpdate() const noexcept;
-    /// The coming update as part of an average in linear space, of whose old value `kept` survives.
-    UpdateFrame comingAverage(float kept) const noexcept;
-    /// Ends the frame: after the update.
-    void advance();
+    /// The coming update as part of an average in linear space, of whose old values `kept` survive.
+    UpdateFrame comingAverage(FrameHysteresis kept) const noexcept;
+    /// Ends the frame: after the update. Without `turn`, the coming update has the same rays again.
+    void advance(bool turn = true);
 
 private:
     void turnRays();

@@ -1,0 +1,186 @@
+#include "field/convergence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/bounce.h"
+#include "kernels/probe_query.h"
+
+namespace probegi {
+
+namespace {
+
+constexpr int kRegionSide = 4;  // probes
+constexpr int kFirstCheck = 8;  // averaged updates
+// Light of a probe, in shares of the mean probe's: below the first it does not count, below the second its noise counts
+// as if it had that much (a leak into a sealed room is noisy for ever, and nobody sees it).
+constexpr double kBlack = 1e-4;
+constexpr double kDim = 1e-2;
+// Bounces are followed until what they miss is this share of the tolerance; the rest is for noise.
+constexpr double kShareOfBounces = 0.5;
+// An update steps ahead where that should leave at most this share of what is missing.
+constexpr double kWorthStepping = 0.4;
+// Standard deviation of a probe's change for its dithered storage, relative, times the side of its map (measured:
+// 2.8e-4 at 8 texels), and how many of these a change must be to say anything.
+constexpr double kStorageNoise = 2.3e-3;
+constexpr double kSignificant = 4;
+constexpr double kMaxRate = double(kernels::kMaxBounceAlbedo);
+
+// Standard errors of the worst region that count as what its noise may still be. Noise that a region shares with all
+// that it sees comes back with the bounces: that is seen only where all regions share it (see checkAverage).
+constexpr double kStandardErrors = 1.5;
+// Squared standard error of the average, in shares of an update's variance over n: weights 3 / (k + 2).
+constexpr double kAverageVariance = 9.0 / 5.0;
+
+}  // namespace
+
+Convergence::Convergence(const FieldDesc& desc, float tolerance, int maxUpdates)
+    : m_grid(desc.grid),
+      m_probeNoise(kStorageNoise / desc.irradianceTexels),
+      m_tolerance(tolerance),
+      m_maxUpdates(maxUpdates) {}
+
+FrameHysteresis Convergence::kept() const noexcept {
+    if (m_averaged > 0) {
+        const float n = float(m_averaged);
+        return {1.0f - 3.0f / (n + 2), 1.0f - 1.0f / (n + float(m_turned))};
+    }
+    if (m_updates < kTurnedUpdates) return {0.0f, 1.0f - 1.0f / float(m_updates + 1)};
+    return {float(-m_ahead), 1.0f};
+}
+
+// Half of the updates are for the average at least.
+bool Convergence::lastBeforeAverage() const noexcept {
+    return 2 * (m_updates + 1) >= m_maxUpdates;
+}
+
+void Convergence::advance(std::span<const float> brightness, std::span<const float> backfaceShares) {
+    const bool observed = observes(), last = lastBeforeAverage();
+    if (m_averaged == 0) m_turned = std::min(m_turned + 1, kTurnedUpdates);
+    ++m_updates;
+    if (observed) observe(brightness, backfaceShares);
+    if (m_averaged > 0)
+        ++m_averaged;
+    else if (m_followed || last)
+        m_averaged = 1;
+}
+
+void Convergence::observe(std::span<const float> brightness, std::span<const float> backfaceShares) {
+    if (m_last.empty()) {
+        makeRegions(backfaceShares);
+    } else {
+        measureChanges(brightness, m_averaged > 0 ? kDim : kBlack);
+        m_averaged > 0 ? checkAverage() : followBounces();
+    }
+    m_before = std::move(m_last);
+    m_last.assign(brightness.begin(), brightness.end());
+}
+
+void Convergence::makeRegions(std::span<const float> backfaceShares) {
+    const glm::ivec3 blocks = (m_grid.counts + kRegionSide - 1) / kRegionSide;
+    m_regions.resize(std::size_t(blocks.x * blocks.y * blocks.z));
+    for (int probe = 0; probe < probeCount(m_grid); ++probe) {
+        if (backfaceShares[std::size_t(probe)] > kernels::kInsideShare) continue;
+        const int row = probe / m_grid.counts.x;
+        const int x = probe % m_grid.counts.x / kRegionSide, y = row % m_grid.counts.y / kRegionSide,
+                  z = row / m_grid.counts.y / kRegionSide;
+        m_regions[std::size_t(x + blocks.x * (y + blocks.y * z))].probes.push_back(probe);
+    }
+    std::erase_if(m_regions, [](const Region& region) { return region.probes.empty(); });
+}
+
+void Convergence::measureChanges(std::span<const float> now, double floor) {
+    double mean = 0, probes = 0;
+    for (const Region& region : m_regions) {
+        for (const int probe : region.probes) mean += now[std::size_t(probe)];
+        probes += double(region.probes.size());
+    }
+    mean /= std::max(probes, 1.0);
+    for (Region& region : m_regions) {
+        region.change = region.earlier = 0;
+        region.counting = 0;
+        for (const int probe : region.probes) {
+            const auto p = std::size_t(probe);
+            if (!(now[p] > kBlack * mean)) continue;
+            const double light = std::max(0.5 * (double(now[p]) + m_last[p]), floor * mean);
+            region.change += (double(now[p]) - m_last[p]) / light;
+            if (!m_before.empty()) region.earlier += (double(m_last[p]) - m_before[p]) / light;
+            ++region.counting;
+        }
+        if (!region.counts()) continue;
+        region.change /= region.counting;
+        region.earlier /= region.counting;
+    }
+}
+
+double Convergence::storageNoise(const Region& region) const noexcept {
+    return m_probeNoise / std::sqrt(double(std::max(region.counting, 1)));
+}
+
+void Convergence::measureRate() noexcept {
+    double now = 0, earlier = 0;
+    for (const Region& region : m_regions) {
+        if (!region.counts() || std::abs(region.earlier) < kSignificant * storageNoise(region)) continue;
+        now += std::abs(region.change);
+        earlier += std::abs(region.earlier);
+    }
+    if (earlier > 0) m_rate = std::min(now / earlier, kMaxRate);
+    m_slowest = std::max(m_slowest, m_rate);
+}
+
+// How many of its last changes a region's light is away from where it goes.
+double Convergence::updatesAhead(const Region& region) const noexcept {
+    const double least = kSignificant * storageNoise(region);
+    const bool significant = std::abs(region.change) > least && std::abs(region.earlier) > least;
+    const double rate = significant ? std::clamp(region.change / region.earlier, 0.0, kMaxRate) : m_rate;
+    return rate / (1 - rate);
+}
+
+void Convergence::followBounces() {
+    m_ahead = 0;
+    if (++m_differences < 2) return;
+    measureRate();
+    // One number of steps for all regions: the least squares of what it leaves.
+    double product = 0, square = 0, left = 0;
+    m_missing = 0;
+    for (const Region& region : m_regions) {
+        const double seen = std::max(std::abs(region.change) - 2 * storageNoise(region), 0.0);
+        const double ahead = updatesAhead(region);
+        product += seen * seen * ahead;
+        square += seen * seen;
+        m_missing = std::max(m_missing, seen * std::max(ahead, m_slowest / (1 - m_slowest)));
+    }
+    const double ahead = square > 0 ? product / square : 0;
+    for (const Region& region : m_regions)
+        left = std::max(left, std::abs(region.change) * std::abs(ahead - updatesAhead(region)));
+    m_remaining = float(m_missing);
+    m_followed = m_missing < kShareOfBounces * m_tolerance;
+    if (!m_followed && m_differences >= 3 && ahead > 1 && left < kWorthStepping * m_missing) {
+        m_ahead = ahead;
+        m_differences = -1;  // the coming update's own difference, and the next one's, say nothing
+    }
+}
+
+void Convergence::checkAverage() {
+    const double n = m_averaged, weight = 3 / (n + 2);
+    double worst = 0, common = 0, counting = 0;
+    for (Region& region : m_regions) {
+        if (!region.counts()) continue;
+        common += region.change;
+        ++counting;
+        if (m_averaged == 1) continue;  // so far the average is one update
+        // The update against the average of those before, which has noise of its own.
+        region.residual2 += std::pow(region.change / weight, 2) / (1 + kAverageVariance / (n - 1));
+        worst = std::max(worst, region.residual2 / (n - 1));
+    }
+    m_common.push_back((m_common.empty() ? 0.0 : m_common.back()) + common / std::max(counting, 1.0));
+    if (m_averaged < kFirstCheck) return;
+    // What all regions have in common is what the bounces keep: from half as many updates it has fallen by this factor.
+    const double power = 3 * (1 - m_slowest);
+    const double lately = std::abs(m_common.back() - m_common[m_common.size() / 2 - 1]);
+    m_remaining = float(kStandardErrors * std::sqrt(kAverageVariance * worst / n) +
+                        lately / (std::pow(2.0, power) - 1) + m_missing * std::pow(n, -power));
+    m_converged = m_remaining < m_tolerance;
+}
+
+}  // namespace probegi
