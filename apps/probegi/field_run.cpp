@@ -17,6 +17,7 @@ float toleranceOf(const FieldRunOptions& options) {
 
 std::string remainingText(const ConvergeResult& result) {
     if (!std::isfinite(result.remaining)) return "too few updates to tell how much light is missing";
+    if (result.remaining > 1) return "the light of the worst region may still be more than 100 % off";
     return fmt::format("the light of the worst region may still be {:.2g} % off", 100 * result.remaining);
 }
 

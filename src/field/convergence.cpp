@@ -20,10 +20,15 @@ constexpr double kDim = 1e-2;
 constexpr double kShareOfBounces = 0.5;
 // An update steps ahead where that should leave at most this share of what is missing.
 constexpr double kWorthStepping = 0.4;
-// Standard deviation of a probe's change for its dithered storage, relative, times the side of its map (measured:
-// 2.8e-4 at 8 texels), and how many of these a change must be to say anything.
-constexpr double kStorageNoise = 2.3e-3;
-constexpr double kSignificant = 4;
+// Standard deviation of a probe's change for its dithered storage, relative, at most, times the side of its map: half a
+// step of a half float to the fifth power, from update to update, over the map's texels.
+constexpr double kStorageNoise = 3.5e-3;
+// Changes are seen from so many of these on.
+constexpr double kSignificant = 3;
+// A rate is known where its noise, two of these over a change, is below a quarter of what it lacks to 1.
+constexpr double kNoiseInRate = 8;
+// While light still spreads into dark rooms, rates are too large: an older one counts for this much less each time.
+constexpr double kForgetSlowest = 0.7;
 constexpr double kMaxRate = double(kernels::kMaxBounceAlbedo);
 
 // Standard errors of the worst region that count as what its noise may still be. Noise that a region shares with all
@@ -117,22 +122,28 @@ double Convergence::storageNoise(const Region& region) const noexcept {
     return m_probeNoise / std::sqrt(double(std::max(region.counting, 1)));
 }
 
+// Rate of two changes that follow each other, of which storage blurs each by `noise`.
+double Convergence::rateOf(double change, double earlier, double noise) const noexcept {
+    const double known = 1 - kNoiseInRate * noise / std::max(std::abs(earlier), 1e-30);
+    if (known <= 0) return m_rate;
+    const double rate = std::clamp(change / earlier, 0.0, kMaxRate);
+    return rate <= known ? rate : std::min(rate, std::max(known, m_rate));
+}
+
 void Convergence::measureRate() noexcept {
-    double now = 0, earlier = 0;
+    double now = 0, earlier = 0, noise2 = 0;
     for (const Region& region : m_regions) {
-        if (!region.counts() || std::abs(region.earlier) < kSignificant * storageNoise(region)) continue;
         now += std::abs(region.change);
         earlier += std::abs(region.earlier);
+        noise2 += std::pow(storageNoise(region), 2);
     }
-    if (earlier > 0) m_rate = std::min(now / earlier, kMaxRate);
-    m_slowest = std::max(m_slowest, m_rate);
+    m_rate = rateOf(now, earlier, std::sqrt(noise2));
+    m_slowest = std::max(m_rate / (1 - m_rate), kForgetSlowest * m_slowest);
 }
 
 // How many of its last changes a region's light is away from where it goes.
 double Convergence::updatesAhead(const Region& region) const noexcept {
-    const double least = kSignificant * storageNoise(region);
-    const bool significant = std::abs(region.change) > least && std::abs(region.earlier) > least;
-    const double rate = significant ? std::clamp(region.change / region.earlier, 0.0, kMaxRate) : m_rate;
+    const double rate = rateOf(region.change, region.earlier, storageNoise(region));
     return rate / (1 - rate);
 }
 
@@ -144,15 +155,17 @@ void Convergence::followBounces() {
     double product = 0, square = 0, left = 0;
     m_missing = 0;
     for (const Region& region : m_regions) {
-        const double seen = std::max(std::abs(region.change) - 2 * storageNoise(region), 0.0);
+        const double seen = std::max(std::abs(region.change) - kSignificant * storageNoise(region), 0.0);
         const double ahead = updatesAhead(region);
         product += seen * seen * ahead;
         square += seen * seen;
-        m_missing = std::max(m_missing, seen * std::max(ahead, m_slowest / (1 - m_slowest)));
+        m_missing = std::max(m_missing, seen * std::max(ahead, m_slowest));
     }
     const double ahead = square > 0 ? product / square : 0;
-    for (const Region& region : m_regions)
-        left = std::max(left, std::abs(region.change) * std::abs(ahead - updatesAhead(region)));
+    for (const Region& region : m_regions) {
+        const double seen = std::max(std::abs(region.change) - kSignificant * storageNoise(region), 0.0);
+        left = std::max(left, seen * std::abs(ahead - updatesAhead(region)));
+    }
     m_remaining = float(m_missing);
     m_followed = m_missing < kShareOfBounces * m_tolerance;
     if (!m_followed && m_differences >= 3 && ahead > 1 && left < kWorthStepping * m_missing) {
@@ -176,7 +189,7 @@ void Convergence::checkAverage() {
     m_common.push_back((m_common.empty() ? 0.0 : m_common.back()) + common / std::max(counting, 1.0));
     if (m_averaged < kFirstCheck) return;
     // What all regions have in common is what the bounces keep: from half as many updates it has fallen by this factor.
-    const double power = 3 * (1 - m_slowest);
+    const double power = 3 / (1 + m_slowest);
     const double lately = std::abs(m_common.back() - m_common[m_common.size() / 2 - 1]);
     m_remaining = float(kStandardErrors * std::sqrt(kAverageVariance * worst / n) +
                         lately / (std::pow(2.0, power) - 1) + m_missing * std::pow(n, -power));

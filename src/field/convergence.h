@@ -59,6 +59,7 @@ private:
     void followBounces();
     void checkAverage();
     double storageNoise(const Region& region) const noexcept;
+    double rateOf(double change, double earlier, double noise) const noexcept;
     void measureRate() noexcept;
     double updatesAhead(const Region& region) const noexcept;
 
@@ -72,7 +73,7 @@ private:
     int m_differences = 0;  ///< between plain updates, since the last one that stepped ahead
     double m_ahead = 0;     ///< how many of its changes the coming update steps ahead
     double m_rate = 0;      ///< by which changes shrink from update to update
-    double m_slowest = 0;   ///< largest rate so far
+    double m_slowest = 0;   ///< the slowest bounces lately: how many of their last changes are still to come
     /// Of the light, for want of bounces, in the worst region, before the average.
     double m_missing = std::numeric_limits<double>::infinity();
     bool m_followed = false;  ///< whether the bounces were followed far enough

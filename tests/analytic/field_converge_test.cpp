@@ -13,7 +13,7 @@ constexpr float kPi = 3.14159265f;
 // Closed box of albedo a and emission Le: E = pi Le / (1 - a) at every point and normal.
 TEST(FieldConverge, furnacesHaveTheirClosedForm) {
     for (const float albedo : {0.5f, 0.8f, 0.9f, 0.95f, 0.99f}) {
-        test::FieldScene s("furnace", {.albedo = albedo}, {.counts = {5, 5, 5}}, {.raysPerProbe = 64});
+        test::FieldScene s("furnace", {.albedo = albedo}, {.counts = {6, 6, 6}}, {.raysPerProbe = 64});
         const auto done = s.field.converge(*s.tracer, s.lighting, 0.01f, 128);
         ASSERT_TRUE(done);
         EXPECT_TRUE(done->converged) << albedo;

@@ -62,7 +62,7 @@ TEST(Render, EveryMethodMakesAPicture) {
 }
 
 TEST(Render, UntilConverged) {
-    EXPECT_GT(mean(render({"--probes", "4x4x4", "--rays", "32"})), 0);
+    EXPECT_GT(mean(render({"--probes", "6x6x6", "--rays", "32"}, "builtin:furnace")), 0);
 }
 
 TEST(Render, ReferenceStopsAfterATime) {
