@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <tuple>
 #include <vector>
 
 #include "probegi/builtin_scenes.h"
@@ -16,7 +17,7 @@ namespace {
 constexpr glm::vec3 kRoom(5.0f, 2.8f, 5.0f);
 constexpr int kPointsPerSide = 16;  ///< on each wall
 constexpr std::array<float, 4> kShifts{0.0f, 0.25f, 0.5f, 0.75f};
-constexpr int kUpdates = 24;
+constexpr int kUpdates = 24;  ///< of Field::converge
 
 /// Points spread over the inner faces of a box, seen from its middle.
 std::vector<FieldQuery> wallPoints(glm::vec3 lower, glm::vec3 upper) {
@@ -49,15 +50,22 @@ GridDesc shiftedGrid(float shift) {
     return {glm::vec3(-7, -1, -4) + glm::vec3(shift - 0.5f), glm::vec3(1), {16, 7, 10}};
 }
 
+/// The two ways of running a field.
+enum class Run { converge, update };
+
+Result<void> fill(Field& field, const Tracer& tracer, const Lighting& lighting, Run run) {
+    if (run == Run::converge)
+        return field.converge(tracer, lighting, 1e-6f, kUpdates).map([](const ConvergeResult&) {});
+    for (int i = 0; i < kRealtimeUpdates; ++i)
+        if (const auto done = field.update(tracer, lighting); !done) return tl::unexpected(done.error());
+    return {};
+}
+
 Result<double> leakShare(const Context& context, const Tracer& tracer, const Lighting& lighting, float wallThickness,
-                         float shift, LeakGuard guard) {
-    FieldDesc desc;
-    desc.grid = shiftedGrid(shift);
-    desc.guard = guard;
+                         const FieldDesc& desc, Run run) {
     auto field = Field::create(context, desc);
     if (!field) return tl::unexpected(field.error());
-    if (const auto done = field->converge(tracer, lighting, 1e-6f, kUpdates); !done)
-        return tl::unexpected(done.error());
+    if (const auto done = fill(*field, tracer, lighting, run); !done) return tl::unexpected(done.error());
     const float wall = 0.5f * wallThickness;
     const glm::vec3 sealed(wall, 0, -0.5f * kRoom.z);
     const glm::vec3 lit(-wall - kRoom.x, 0, -0.5f * kRoom.z);
@@ -83,9 +91,13 @@ Result<LeakResult> measureLeak(const Context& context, float wallThickness) {
     LeakResult result;
     result.wallThickness = wallThickness;
     for (const float shift : kShifts)
-        for (const auto& [guard, share] :
-             {std::pair(LeakGuard::none, &result.leaky), std::pair(LeakGuard::moments, &result.moments)}) {
-            const auto measured = leakShare(context, **tracer, lighting, wallThickness, shift, guard);
+        for (const auto& [guard, run, share] : {std::tuple(LeakGuard::none, Run::converge, &result.leaky),
+                                                std::tuple(LeakGuard::moments, Run::converge, &result.moments),
+                                                std::tuple(LeakGuard::moments, Run::update, &result.realtime)}) {
+            FieldDesc desc;
+            desc.grid = shiftedGrid(shift);
+            desc.guard = guard;
+            const auto measured = leakShare(context, **tracer, lighting, wallThickness, desc, run);
             if (!measured) return tl::unexpected(measured.error());
             share->mean += *measured / double(kShifts.size());
             share->worst = std::max(share->worst, *measured);

@@ -13,10 +13,14 @@ struct LeakShare {
     double worst = 0;  ///< of the grid's shifts
 };
 
+/// Updates after which what an engine runs, Field::update, is measured.
+inline constexpr int kRealtimeUpdates = 300;
+
 struct LeakResult {
     float wallThickness = 0;  ///< metres
-    LeakShare leaky;          ///< LeakGuard::none
-    LeakShare moments;        ///< LeakGuard::moments
+    LeakShare leaky;          ///< LeakGuard::none, converged
+    LeakShare moments;        ///< LeakGuard::moments, converged
+    LeakShare realtime;       ///< LeakGuard::moments after kRealtimeUpdates of Field::update
 };
 
 /// Errors: those of the passes.

@@ -52,6 +52,7 @@ tool::ReportSettings settingsOf(const Options& options) {
     settings.seconds = 0;
     settings.samplesPerPixel = options.samplesPerPixel;
     settings.ratioProbes = 512;
+    settings.realtimeUpdates = kRealtimeUpdates;
     return settings;
 }
 

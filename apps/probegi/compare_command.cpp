@@ -21,6 +21,34 @@ struct CompareOptions {
     float exposure = 1.0f;
 };
 
+void print(const ImageDifference& d, bool json) {
+    const LightRatio& r = d.ratio;
+    if (json) {
+        const nlohmann::ordered_json ratio{
+            {"mean", r.mean}, {"p5", r.low}, {"median", r.median}, {"p95", r.high}, {"blocks", r.blocks}};
+        fmt::print("{}\n", nlohmann::ordered_json{{"rmse", d.rmse},
+                                                  {"relmse", d.relmse},
+                                                  {"scaledRelmse", d.scaledRelmse},
+                                                  {"flip", d.flip},
+                                                  {"ratio", ratio}}
+                               .dump(2));
+        return;
+    }
+    fmt::print(
+        "rmse    {:.6f}   root mean square error of display values, 0..1\n"
+        "relmse  {:.6f}   mean relative square error of linear values\n"
+        "scaled  {:.6f}   the same, relative to the reference's own brightness where it is dark\n"
+        "flip    {:.6f}   mean visible difference (FLIP), 0..1\n",
+        d.rmse, d.relmse, d.scaledRelmse, d.flip);
+    if (r.blocks == 0)
+        fmt::print("ratio   -          of the light, A over B: B is black\n");
+    else
+        fmt::print(
+            "ratio   {:.6f}   of the light, A over B; in {} blocks {:.3f}, {:.3f}, {:.3f} (5th, 50th, 95th "
+            "percentile)\n",
+            r.mean, r.blocks, r.low, r.median, r.high);
+}
+
 Result<void> compare(const CompareOptions& options) {
     const bool writesMap = !options.heatmap.empty();
     if (writesMap)
@@ -40,15 +68,7 @@ Result<void> compare(const CompareOptions& options) {
         const HdrImage map = linearFromDisplay(heatmap(comparison->flipMap));
         if (auto written = writeImage(options.heatmap, map); !written) return written;
     }
-    const ImageDifference& d = comparison->difference;
-    if (options.json)
-        fmt::print("{}\n", nlohmann::ordered_json{{"rmse", d.rmse}, {"relmse", d.relmse}, {"flip", d.flip}}.dump(2));
-    else
-        fmt::print(
-            "rmse    {:.6f}   root mean square error of display values, 0..1\n"
-            "relmse  {:.6f}   mean relative square error of linear values\n"
-            "flip    {:.6f}   mean visible difference (FLIP), 0..1\n",
-            d.rmse, d.relmse, d.flip);
+    print(comparison->difference, options.json);
     return {};
 }
 
@@ -61,7 +81,7 @@ void addCompareCommand(CLI::App& app, int& exitCode) {
     command->add_option("B", options->reference, "the reference, of the same size")->type_name("")->required();
     command->add_option("--heatmap", options->heatmap, "write where they differ (FLIP, dark to bright): .png or .exr")
         ->type_name("FILE");
-    command->add_flag("--json", options->json, "print JSON with the keys rmse, relmse and flip");
+    command->add_flag("--json", options->json, "print JSON with the keys rmse, relmse, scaledRelmse, flip and ratio");
     command->add_option("--exposure", options->exposure, "factor on the light before display values are compared")
         ->type_name("FACTOR")
         ->check(inRange(1e-9, 1e9))

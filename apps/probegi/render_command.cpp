@@ -35,7 +35,7 @@ struct RenderOptions {
     bool filmic = false;
     std::uint64_t seed = 1;
     int rays = FieldDesc{}.raysPerProbe;
-    std::optional<int> frames;
+    FieldRunOptions run;
     std::optional<int> samplesPerPixel;
     std::optional<double> seconds;
 };
@@ -70,19 +70,9 @@ Result<std::optional<Field>> makeField(const Backend& backend, const Tracer& tra
     if (!field) return tl::unexpected(field.error());
     stats.probes = probeCount(desc.grid);
     stats.raysPerProbe = desc.raysPerProbe;
-    const auto record = [&](const UpdateTimes& times) { stats.updates.push_back(times); };
-    if (!options.frames) {
-        const auto done = field->converge(tracer, setup.lighting, kConvergeTolerance, kConvergeMaxUpdates, record);
-        if (!done) return tl::unexpected(done.error());
-        return std::move(*field);
-    }
-    LoopProgress progress("updating probes", *options.frames);
-    for (int frame = 0; frame < *options.frames; ++frame) {
-        progress.done(frame);
-        const auto times = field->update(tracer, setup.lighting);
-        if (!times) return tl::unexpected(times.error());
-        record(*times);
-    }
+    auto run = runField(*field, tracer, setup.lighting, options.run);
+    if (!run) return tl::unexpected(run.error());
+    stats.run = std::move(*run);
     return std::move(*field);
 }
 
@@ -115,8 +105,8 @@ void warnAboutUnusedOptions(const RenderOptions& options) {
     const bool reference = options.method == Method::reference;
     if (!reference && (options.samplesPerPixel || options.seconds))
         printWarning("--spp and --time act on --method reference only");
-    if ((reference || options.method == Method::none) && options.frames)
-        printWarning("--frames acts on --method ddgi and leaky only");
+    if ((reference || options.method == Method::none) && (options.run.frames || options.run.tolerance))
+        printWarning("--frames and --tolerance act on --method ddgi and leaky only");
     if ((reference || options.method == Method::none) && options.rules == FieldRules::paper)
         printWarning("--rules acts on --method ddgi and leaky only");
 }
@@ -194,10 +184,7 @@ void addMethodOptions(CLI::App& command, RenderOptions& options) {
         ->type_name("N")
         ->check(inRange(8, 4096))
         ->capture_default_str();
-    command
-        .add_option("--frames", options.frames, "updates of the probes before the picture (default: until converged)")
-        ->type_name("N")
-        ->check(inRange(1, 1e6));
+    addFieldRunOptions(command, options.run);
     command.add_option("--spp", options.samplesPerPixel, "reference: samples per pixel (default 64 without --time)")
         ->type_name("N")
         ->check(inRange(1, 1e6));

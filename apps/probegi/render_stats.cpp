@@ -1,6 +1,7 @@
 #include "render_stats.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "output.h"
@@ -25,11 +26,17 @@ UpdateTimes medianTimes(const std::vector<UpdateTimes>& updates) {
 }
 
 std::string statsJson(const RenderStats& stats) {
-    const UpdateTimes ms = medianTimes(stats.updates);
+    const UpdateTimes ms = medianTimes(stats.run.updates);
+    const auto& convergence = stats.run.convergence;
+    nlohmann::ordered_json converged, remaining;  // null
+    if (convergence) converged = convergence->converged;
+    if (convergence && std::isfinite(convergence->remaining)) remaining = convergence->remaining;
     const nlohmann::ordered_json json{
         {"probes", stats.probes},
         {"raysPerProbe", stats.raysPerProbe},
-        {"frames", stats.updates.size()},
+        {"frames", stats.run.updates.size()},
+        {"converged", converged},
+        {"remaining", remaining},
         {"updateMs", {{"trace", ms.trace}, {"shade", ms.shade}, {"blend", ms.blend}, {"total", ms.total}}},
         {"pictureMs", stats.pictureMs},
         {"peakMemoryBytes", peakMemoryBytes()}};

@@ -3,25 +3,21 @@
 #include <string>
 #include <vector>
 
-#include "probegi/field.h"
+#include "field_run.h"
 
 namespace probegi::tool {
-
-/// When the tool's pictures count a field as converged: relative change, and a cap beyond which the noise that is left
-/// is below that of the reference. Stricter than Field::converge's own default, which is for engines.
-inline constexpr float kConvergeTolerance = 0.01f;
-inline constexpr int kConvergeMaxUpdates = 128;
 
 /// What --stats writes. A method without a field has no probes and no updates.
 struct RenderStats {
     int probes = 0;
     int raysPerProbe = 0;
-    std::vector<UpdateTimes> updates;
+    FieldRun run;
     double pictureMs = 0;
 };
 
-/// JSON with the keys probes, raysPerProbe, frames, updateMs {trace, shade, blend, total} (medians per update, 0
-/// without updates), pictureMs, peakMemoryBytes.
+/// JSON with the keys probes, raysPerProbe, frames, converged (null with --frames and without a field), remaining (the
+/// estimate behind it, null where there is none), updateMs {trace, shade, blend, total} (medians per update, 0 without
+/// updates), pictureMs, peakMemoryBytes.
 std::string statsJson(const RenderStats& stats);
 
 /// Median of a copy; 0 of nothing.

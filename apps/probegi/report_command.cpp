@@ -101,14 +101,17 @@ Result<std::vector<LoadedSetup>> loadAll(const ReportOptions& options) {
 }
 
 /// What a terminal shows of a scene: the page has the rest.
-void printKeyNumbers(const nlohmann::json& scene) {
-    const auto& methods = scene["methods"];
-    const auto& field = methods["ddgi"]["field"];
-    fmt::print("{}: {} probes, {:.0f} ms an update; at the probes {:.3f} of the reference's light (median)\n",
-               scene["scene"].get<std::string>(), scene["probes"].get<int>(), field["updateMs"]["total"].get<double>(),
-               field["ratio"]["median"].get<double>());
-    fmt::print("  FLIP error against the path tracer: {:.3f} without GI, {:.3f} with the field\n",
-               methods["none"]["picture"]["flip"].get<double>(), methods["ddgi"]["picture"]["flip"].get<double>());
+std::string keyNumbers(const std::string& name, const RenderedScene& scene) {
+    const FieldResult& field = scene.ddgiField;
+    const LightRatio& ratio = scene.ddgi.whole.difference.ratio;
+    return fmt::format(
+        "{}: {} probes, {:.0f} ms an update ({})\n"
+        "  light over the path tracer's: {:.3f} at the median of {} probes, {:.3f} in the picture (blocks {:.3f} to "
+        "{:.3f})\n"
+        "  FLIP error: {:.3f} without GI, {:.3f} with the field; an exact picture {:.3f} for the reference's noise\n",
+        name, probeCount(scene.grid), field.update.total, field.description, field.ratio.median,
+        scene.truth.probes.size(), ratio.mean, ratio.low, ratio.high, scene.none.whole.difference.flip,
+        scene.ddgi.whole.difference.flip, scene.noiseFloor.flip);
 }
 
 Result<void> writeReport(const ReportOptions& options, const CLI::App& command) {
@@ -123,6 +126,7 @@ Result<void> writeReport(const ReportOptions& options, const CLI::App& command) 
 
     Report report{"ProbeGI report", commandLine(command), legendColours(), {}};
     nlohmann::json numbers = nlohmann::json::array();
+    std::string summary;
     std::set<std::string> taken;
     for (std::size_t i = 0; i < setups->size(); ++i) {
         const std::string& name = i == 0 ? options.scene.scene : options.more[i - 1];
@@ -135,11 +139,11 @@ Result<void> writeReport(const ReportOptions& options, const CLI::App& command) 
         report.scenes.push_back(std::move(*section));
         numbers.push_back(sceneNumbers(*rendered));
         numbers.back()["scene"] = name;
+        summary += keyNumbers(name, *rendered);
     }
     if (auto written = writeText(folder / "report.json", numbers.dump(2) + "\n"); !written) return written;
     if (auto written = writeText(folder / "report.html", reportHtml(report)); !written) return written;
-    for (const nlohmann::json& scene : numbers) printKeyNumbers(scene);
-    fmt::print("{}\n", (folder / "report.html").string());
+    fmt::print("{}{}\n", summary, (folder / "report.html").string());
     return {};
 }
 
@@ -164,9 +168,7 @@ void addReportOptions(CLI::App& command, ReportOptions& options) {
         ->type_name("N")
         ->check(inRange(8, 4096))
         ->capture_default_str();
-    command.add_option("--frames", options.settings.frames, "updates of the probes (default: until converged)")
-        ->type_name("N")
-        ->check(inRange(1, 1e6));
+    addFieldRunOptions(command, options.settings.run);
     command
         .add_option("--ratio-probes", options.settings.ratioProbes,
                     "probes that are compared with the reference, 1 to 65536")

@@ -50,23 +50,34 @@ std::vector<Shown> shownPictures(const RenderedScene& scene) {
              scene.reference, nullptr}};
 }
 
-Result<ReportPicture> errorMap(const Shown& shown, const ReportPlace& place) {
+Result<ReportPicture> errorMap(const Shown& shown, const ReportPlace& place, double exactFlip) {
     const ReportPicture picture{
         fmt::format("flip-{}", shown.id),
         fmt::format("Error: {}", shown.title),
-        fmt::format("Mean FLIP {:.4f}.", shown.method->whole.difference.flip),
+        fmt::format("Mean FLIP {:.4f}; an exact picture would score {:.4f} for the reference's noise.",
+                    shown.method->whole.difference.flip, exactFlip),
         fmt::format("{}: map of visible differences between {} and the reference", place.title, shown.title),
         {}};
     return keepPicture(place, picture, linearFromDisplay(heatmap(shown.method->whole.flipMap)), {});
 }
 
 nlohmann::json numbers(const ImageDifference& d) {
-    return {{"rmse", d.rmse}, {"relmse", d.relmse}, {"flip", d.flip}};
+    return {{"rmse", d.rmse},
+            {"relmse", d.relmse},
+            {"scaledRelmse", d.scaledRelmse},
+            {"flip", d.flip},
+            {"ratio",
+             {{"mean", d.ratio.mean},
+              {"p5", d.ratio.low},
+              {"median", d.ratio.median},
+              {"p95", d.ratio.high},
+              {"blocks", d.ratio.blocks}}}};
 }
 
 nlohmann::json numbers(const FieldResult& f) {
     return {
-        {"updates", f.updates},
+        {"updates", f.run.updates.size()},
+        {"converged", f.run.convergence ? nlohmann::json(f.run.convergence->converged) : nlohmann::json()},
         {"seconds", f.seconds},
         {"updateMs",
          {{"trace", f.update.trace}, {"shade", f.update.shade}, {"blend", f.update.blend}, {"total", f.update.total}}},
@@ -91,7 +102,7 @@ Result<ReportScene> describeScene(const RenderedScene& scene, const ReportPlace&
         if (!picture) return tl::unexpected(picture.error());
         section.pictures.push_back(std::move(*picture));
         if (!shown.method) continue;
-        auto map = errorMap(shown, place);
+        auto map = errorMap(shown, place, scene.noiseFloor.flip);
         if (!map) return tl::unexpected(map.error());
         section.errorMaps.push_back(std::move(*map));
     }
@@ -112,7 +123,8 @@ nlohmann::json sceneNumbers(const RenderedScene& scene) {
     json["reference"] = {{"samplesPerPixel", scene.referenceSamples},
                          {"seconds", scene.referenceSeconds},
                          {"relativeNoise", scene.referenceNoise},
-                         {"noiseFloor", numbers(scene.noiseFloor)}};
+                         {"noiseFloor", numbers(scene.noiseFloor)},
+                         {"indirectNoiseFloor", numbers(scene.indirectNoiseFloor)}};
     json["ratioProbes"] = {{"used", scene.truth.probes.size()},
                            {"inWalls", scene.truth.inWalls},
                            {"dark", scene.truth.dark},

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <glm/common.hpp>
 #include <random>
+#include <tuple>
 
 #include "render_stats.h"
 
@@ -40,36 +41,29 @@ double relativeNoise(const ReferencePicture& reference) {
     return value > 0 ? error / value : 0;
 }
 
-/// The reference with as much noise again as its standard error says that it has.
-HdrImage noisyTwin(const ReferencePicture& reference, std::uint64_t seed) {
+/// What a layer of the reference scores against itself with as much noise again as its standard error says it has.
+Result<ImageDifference> noiseScore(const HdrImage& layer, const HdrImage& standardError, std::uint64_t seed,
+                                   float exposure) {
     std::mt19937_64 random(seed);
     std::normal_distribution<float> normal;
-    HdrImage twin = reference.picture.color;
+    HdrImage twin = layer;
     for (std::size_t i = 0; i < twin.pixels.size(); ++i)
-        twin.pixels[i] = glm::max(twin.pixels[i] + reference.standardError.pixels[i] * normal(random), 0.0f);
-    return twin;
+        twin.pixels[i] = glm::max(twin.pixels[i] + standardError.pixels[i] * normal(random), 0.0f);
+    const auto compared = compareImages(twin, layer, {exposure});
+    if (!compared) return tl::unexpected(compared.error());
+    return compared->difference;
 }
 
-Result<FieldResult> runField(Field& field, const Tracer& tracer, const Lighting& lighting,
-                             const ReportSettings& settings) {
+Result<FieldResult> fillField(Field& field, const Tracer& tracer, const Lighting& lighting,
+                              const FieldRunOptions& options) {
     FieldResult result;
-    std::vector<UpdateTimes> times;
     const Stopwatch watch;
-    if (settings.frames) {
-        for (int frame = 0; frame < *settings.frames; ++frame) {
-            const auto update = field.update(tracer, lighting);
-            if (!update) return tl::unexpected(update.error());
-            times.push_back(*update);
-        }
-        result.updates = *settings.frames;
-    } else {
-        const auto record = [&](const UpdateTimes& update) { times.push_back(update); };
-        const auto updates = field.converge(tracer, lighting, kConvergeTolerance, kConvergeMaxUpdates, record);
-        if (!updates) return tl::unexpected(updates.error());
-        result.updates = *updates;
-    }
+    auto run = runField(field, tracer, lighting, options);
+    if (!run) return tl::unexpected(run.error());
     result.seconds = watch.seconds();
-    result.update = medianTimes(times);
+    result.run = std::move(*run);
+    result.description = describeRun(result.run, options);
+    result.update = medianTimes(result.run.updates);
     result.memory = field.memory();
     return result;
 }
@@ -94,28 +88,45 @@ Result<void> judge(MethodResult& method, const Picture& reference, const ToneMap
     return {};
 }
 
-/// The field with and without its leak guard. The second run starts from the first one's light, which it forgets.
-Result<void> drawFields(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
-                        const ReportSettings& settings, RenderedScene& scene) {
+Result<FieldPicture> drawField(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
+                               const ReportSettings& settings, const ProbeTruth& truth, Field& field,
+                               const FieldRunOptions& run) {
+    auto filled = fillField(field, tracer, setup.lighting, run);
+    if (!filled) return tl::unexpected(filled.error());
+    filled->ratio = percentiles(probeRatios(field, truth));
+    auto drawn = drawMethod(backend, tracer, setup, settings, &field);
+    if (!drawn) return tl::unexpected(drawn.error());
+    return FieldPicture{std::move(*filled), std::move(*drawn)};
+}
+
+FieldDesc fieldDesc(const LoadedSetup& setup, const ReportSettings& settings) {
     FieldDesc desc;
     desc.grid = setup.grid;
     desc.raysPerProbe = settings.raysPerProbe;
     desc.seed = settings.seed;
-    auto field = backend.makeField(desc);
+    return desc;
+}
+
+/// The field with and without its leak guard. The second run starts from the first one's light, which it forgets.
+Result<void> drawFields(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
+                        const ReportSettings& settings, RenderedScene& scene) {
+    auto field = backend.makeField(fieldDesc(setup, settings));
     if (!field) return tl::unexpected(field.error());
-    const auto run = [&](LeakGuard guard, FieldResult& result, MethodResult& method) -> Result<void> {
+    for (const auto& [guard, result, method] : {std::tuple(LeakGuard::moments, &scene.ddgiField, &scene.ddgi),
+                                                std::tuple(LeakGuard::none, &scene.leakyField, &scene.leaky)}) {
         field->setGuard(guard);
-        auto done = runField(*field, tracer, setup.lighting, settings);
-        if (!done) return tl::unexpected(done.error());
-        result = *done;
-        result.ratio = percentiles(probeRatios(*field, scene.truth));
-        auto drawn = drawMethod(backend, tracer, setup, settings, &*field);
+        auto drawn = drawField(backend, tracer, setup, settings, scene.truth, *field, settings.run);
         if (!drawn) return tl::unexpected(drawn.error());
-        method = std::move(*drawn);
-        return {};
-    };
-    if (auto done = run(LeakGuard::moments, scene.ddgiField, scene.ddgi); !done) return done;
-    return run(LeakGuard::none, scene.leakyField, scene.leaky);
+        *result = std::move(drawn->field);
+        *method = std::move(drawn->method);
+    }
+    if (!settings.realtimeUpdates) return {};
+    auto fresh = backend.makeField(fieldDesc(setup, settings));
+    if (!fresh) return tl::unexpected(fresh.error());
+    auto drawn = drawField(backend, tracer, setup, settings, scene.truth, *fresh, {settings.realtimeUpdates, {}});
+    if (!drawn) return tl::unexpected(drawn.error());
+    scene.realtime = std::move(*drawn);
+    return {};
 }
 
 Result<void> drawReference(const PathTracer& pathTracer, const LoadedSetup& setup, const ReportSettings& settings,
@@ -130,9 +141,12 @@ Result<void> drawReference(const PathTracer& pathTracer, const LoadedSetup& setu
     scene.referenceSamples = reference->samplesPerPixel;
     scene.referenceSeconds = reference->seconds;
     scene.referenceNoise = relativeNoise(*reference);
-    const auto floor = compareImages(noisyTwin(*reference, settings.seed), reference->picture.color, {setup.exposure});
-    if (!floor) return tl::unexpected(floor.error());
-    scene.noiseFloor = floor->difference;
+    for (const auto& [layer, floor] : {std::pair(&reference->picture.color, &scene.noiseFloor),
+                                       std::pair(&reference->picture.indirect, &scene.indirectNoiseFloor)}) {
+        const auto score = noiseScore(*layer, reference->standardError, settings.seed, setup.exposure);
+        if (!score) return tl::unexpected(score.error());
+        *floor = *score;
+    }
     scene.reference = std::move(reference->picture);
     return {};
 }
@@ -168,7 +182,9 @@ Result<RenderedScene> renderForReport(const Context& context, const Backend& bac
     scene.none = std::move(*none);
     if (auto done = drawFields(backend, drawing, setup, settings, scene); !done) return tl::unexpected(done.error());
     if (auto done = drawReference(*pathTracer, setup, settings, scene); !done) return tl::unexpected(done.error());
-    for (MethodResult* method : {&scene.none, &scene.leaky, &scene.ddgi})
+    std::vector<MethodResult*> methods{&scene.none, &scene.leaky, &scene.ddgi};
+    if (scene.realtime) methods.push_back(&scene.realtime->method);
+    for (MethodResult* method : methods)
         if (auto done = judge(*method, scene.reference, {setup.exposure, false}); !done)
             return tl::unexpected(done.error());
     return scene;

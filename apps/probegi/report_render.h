@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "backend.h"
+#include "field_run.h"
 #include "probe_ratio.h"
 #include "probegi/compare.h"
 #include "scene_setup.h"
@@ -18,11 +19,12 @@ struct ReportSettings {
     int height = 540;
     bool diffuseOnly = false;
     int raysPerProbe = FieldDesc{}.raysPerProbe;
-    std::optional<int> frames;  ///< updates of a field; empty: until converged
-    double seconds = 45;        ///< of the reference; 0: no limit
-    int samplesPerPixel = 0;    ///< of the reference; 0: no limit
-    int ratioProbes = 128;      ///< probes that are compared with the reference
-    int ratioSamples = 256;     ///< paths per probe and direction
+    FieldRunOptions run;
+    std::optional<int> realtimeUpdates;  ///< where given, a fresh field is also filled by so many of Field::update
+    double seconds = 45;                 ///< of the reference; 0: no limit
+    int samplesPerPixel = 0;             ///< of the reference; 0: no limit
+    int ratioProbes = 128;               ///< probes that are compared with the reference
+    int ratioSamples = 256;              ///< paths per probe and direction
     std::uint64_t seed = 1;
 };
 
@@ -36,11 +38,18 @@ struct MethodResult {
 
 /// What a field cost, and how its probes compare with the truth.
 struct FieldResult {
-    int updates = 0;
-    double seconds = 0;  ///< all updates
-    UpdateTimes update;  ///< medians, milliseconds
+    FieldRun run;
+    std::string description;  ///< of the run, for tables
+    double seconds = 0;       ///< all updates
+    UpdateTimes update;       ///< medians, milliseconds
     FieldMemory memory;
     Percentiles ratio;  ///< probe irradiance over truth
+};
+
+/// A field and the picture with it.
+struct FieldPicture {
+    FieldResult field;
+    MethodResult method;
 };
 
 /// Everything that the report says of one scene.
@@ -51,11 +60,14 @@ struct RenderedScene {
     double prepareSeconds = 0;  ///< tracer and light sampling structures
     MethodResult none, leaky, ddgi;
     FieldResult leakyField, ddgiField;
+    std::optional<FieldPicture> realtime;  ///< with ReportSettings::realtimeUpdates
     Picture reference;
     int referenceSamples = 0;
     double referenceSeconds = 0;
     double referenceNoise = 0;   ///< mean standard error over mean value of the picture
     ImageDifference noiseFloor;  ///< what an exact picture would score against this reference, for its noise
+    /// The same of the indirect light alone, as if all the noise were its: that of direct light is a small part.
+    ImageDifference indirectNoiseFloor;
     ProbeTruth truth;
 };
 

@@ -23,12 +23,27 @@ std::string percent(double share) {
 }
 
 std::vector<std::string> differenceRow(const char* name, const ImageDifference& d) {
-    return {name, fmt::format("{:.4f}", d.rmse), fmt::format("{:.4f}", d.relmse), fmt::format("{:.4f}", d.flip)};
+    const LightRatio& r = d.ratio;
+    return {name,
+            fmt::format("{:.4f}", d.rmse),
+            fmt::format("{:.4f}", d.relmse),
+            fmt::format("{:.4f}", d.scaledRelmse),
+            fmt::format("{:.4f}", d.flip),
+            fmt::format("{:.3f}", r.mean),
+            fmt::format("{:.3f} / {:.3f} / {:.3f}", r.low, r.median, r.high)};
 }
+
+const std::vector<std::string> kDifferenceHeader{"",
+                                                 "RMSE",
+                                                 "relMSE",
+                                                 "relMSE, scaled",
+                                                 "FLIP",
+                                                 "Light, mean ratio",
+                                                 "Ratio of blocks, 5th / 50th / 95th percentile"};
 
 ReportTable wholeTable(const RenderedScene& scene) {
     return {"Error of the whole picture",
-            {"", "RMSE", "relMSE", "FLIP"},
+            kDifferenceHeader,
             {differenceRow("No GI", scene.none.whole.difference),
              differenceRow("Leaking field", scene.leaky.whole.difference),
              differenceRow("Field", scene.ddgi.whole.difference), differenceRow("An exact picture", scene.noiseFloor)},
@@ -38,11 +53,14 @@ ReportTable wholeTable(const RenderedScene& scene) {
 }
 
 ReportTable indirectTable(const RenderedScene& scene) {
-    return {"Error of the indirect light alone",
-            {"", "RMSE", "relMSE", "FLIP"},
-            {differenceRow("No GI", scene.none.indirectOnly), differenceRow("Leaking field", scene.leaky.indirectOnly),
-             differenceRow("Field", scene.ddgi.indirectOnly)},
-            ""};
+    return {
+        "Error of the indirect light alone",
+        kDifferenceHeader,
+        {differenceRow("No GI", scene.none.indirectOnly), differenceRow("Leaking field", scene.leaky.indirectOnly),
+         differenceRow("Field", scene.ddgi.indirectOnly), differenceRow("An exact picture", scene.indirectNoiseFloor)},
+        fmt::format("Ratios are of luminance, in {} of 40 blocks of the picture (the others are black in the "
+                    "reference). The scaled relMSE is relative to the reference's own brightness where it is dark.",
+                    scene.ddgi.indirectOnly.ratio.blocks)};
 }
 
 ReportTable ratioTable(const RenderedScene& scene) {
@@ -51,13 +69,15 @@ ReportTable ratioTable(const RenderedScene& scene) {
                                         fmt::format("{:.3f}", p.high)};
     };
     const ProbeTruth& truth = scene.truth;
-    return {"Irradiance at the probes, over the reference",
-            {"", "5th percentile", "median", "95th percentile"},
-            {row("Leaking field", scene.leakyField.ratio), row("Field", scene.ddgiField.ratio)},
-            fmt::format("1 is right. {} probes spread over the grid; left out: {} inside walls (over a quarter of "
-                        "their rays hit the back of a wall) and {} with too little light for a ratio. Noise of the "
-                        "reference at a probe: {}.",
-                        truth.probes.size(), truth.inWalls, truth.dark, percent(truth.noise))};
+    return {
+        "Irradiance at the probes, over the reference",
+        {"", "5th percentile", "median", "95th percentile"},
+        {row("Leaking field", scene.leakyField.ratio), row("Field", scene.ddgiField.ratio)},
+        fmt::format(
+            "1 is right. Filled by {}. {} probes spread over the grid; left out: {} inside walls (over a quarter of "
+            "their rays hit the back of a wall) and {} with too little light for a ratio. Noise of the "
+            "reference at a probe: {}.",
+            scene.ddgiField.description, truth.probes.size(), truth.inWalls, truth.dark, percent(truth.noise))};
 }
 
 ReportTable timeTable(const RenderedScene& scene) {
@@ -68,7 +88,7 @@ ReportTable timeTable(const RenderedScene& scene) {
              {"One update: light at their hits", milliseconds(field.update.shade)},
              {"One update: blend into the probes", milliseconds(field.update.blend)},
              {"One update: total", milliseconds(field.update.total)},
-             {"Updates until this picture", fmt::format("{} in {:.1f} s", field.updates, field.seconds)},
+             {"Updates until this picture", fmt::format("{}, in {:.1f} s", field.description, field.seconds)},
              {"Picture without GI", milliseconds(scene.none.pictureMs)},
              {"Picture with the field", milliseconds(scene.ddgi.pictureMs)},
              {"Reference", fmt::format("{:.1f} s", scene.referenceSeconds)},
@@ -111,9 +131,15 @@ std::vector<ReportTable> reportTables(const RenderedScene& scene) {
 }
 
 std::vector<ReportFigure> reportFigures(const RenderedScene& scene) {
-    return {{fmt::format("{:.3f}", scene.ddgiField.ratio.median), "light at the probes over the reference, median"},
+    return {{fmt::format("{:.3f}", scene.ddgiField.ratio.median),
+             fmt::format("light at the probes over the reference, median of {} probes after {}",
+                         scene.truth.probes.size(), scene.ddgiField.description)},
+            {fmt::format("{:.3f}", scene.ddgi.whole.difference.ratio.mean),
+             "light of the picture over the reference's, mean"},
             {fmt::format("{:.3f}", scene.ddgi.whole.difference.flip),
-             fmt::format("visible error of the field (FLIP); without GI {:.3f}", scene.none.whole.difference.flip)},
+             fmt::format("visible error of the field (FLIP); without GI {:.3f}, an exact picture {:.3f} for the "
+                         "reference's noise",
+                         scene.none.whole.difference.flip, scene.noiseFloor.flip)},
             {milliseconds(scene.ddgiField.update.total), "one update of all probes"},
             {milliseconds(scene.ddgi.pictureMs), "picture with the field"},
             {fmt::format("{:.1f} s", scene.referenceSeconds),

@@ -125,6 +125,38 @@ Result<GridDesc> makeGrid(const SceneOptions& options, const Scene& scene, const
     return placeGrid(pose.bounds, placement);
 }
 
+// How far a box reaches beyond the grid's outermost probes, in cells of the axis where it is farthest.
+struct Overhang {
+    float cells = 0;
+    float metres = 0;
+};
+
+Overhang overhang(const GridDesc& grid, glm::vec3 lower, glm::vec3 upper) {
+    const glm::vec3 last = grid.origin + grid.spacing * glm::vec3(grid.counts - 1);
+    const glm::vec3 beyond = glm::max(grid.origin - lower, upper - last);
+    Overhang most;
+    for (int axis = 0; axis < 3; ++axis)
+        if (const float cells = beyond[axis] / grid.spacing[axis]; cells > most.cells) most = {cells, beyond[axis]};
+    return most;
+}
+
+// Up to half a cell beyond the outermost probes their light is as good as between probes.
+constexpr float kHarmlessCells = 0.5f;
+
+std::vector<std::string> gridWarnings(const LoadedSetup& setup) {
+    const Overhang surfaces = overhang(setup.grid, setup.pose.bounds.lower, setup.pose.bounds.upper);
+    if (surfaces.cells <= kHarmlessCells) return {};  // then nothing that a camera sees is outside
+    std::vector<std::string> sentences{
+        fmt::format("the scene reaches {:.2g} m beyond its probe grid: surfaces there get the light "
+                    "of the nearest probes; lay a grid over all of it with --probes",
+                    surfaces.metres)};
+    const Overhang camera = overhang(setup.grid, setup.camera.position, setup.camera.position);
+    if (camera.cells > kHarmlessCells)
+        sentences.push_back(
+            fmt::format("the camera stands {:.2g} m outside the probe grid, where no light is known", camera.metres));
+    return sentences;
+}
+
 }  // namespace
 
 Result<LoadedScene> readScene(const SceneOptions& options) {
@@ -167,6 +199,10 @@ Result<LoadedSetup> loadSetup(const SceneOptions& options) {
     const auto grid = makeGrid(options, *setup.scene, setup.pose);
     if (!grid) return tl::unexpected(grid.error());
     setup.grid = *grid;
+    for (std::string& warning : gridWarnings(setup)) {
+        printWarning(warning);
+        setup.warnings.push_back(std::move(warning));
+    }
     return setup;
 }
 

@@ -46,7 +46,7 @@ struct LoadedSetup {
     PlacedCamera camera;
     GridDesc grid;
     float exposure = 1.0f;
-    std::vector<std::string> warnings;  ///< of the reader, one sentence each
+    std::vector<std::string> warnings;  ///< of the reader, and of a grid that leaves surfaces out; one sentence each
 };
 
 /// Loads or makes the scene, and nothing else.

@@ -88,6 +88,15 @@ struct UpdateTimes {
     double total = 0;
 };
 
+/// How Field::converge ended.
+struct ConvergeResult {
+    int updates = 0;         ///< done
+    bool converged = false;  ///< within the tolerance; else the cap on updates was hit first
+    /// Estimate of how far the light of the worst region still is from where it goes, relative, 0 or more; infinite
+    /// where there were too few updates to tell.
+    float remaining = 0;
+};
+
 /// Changes that call for faster convergence than the plain hysteresis gives (section 4.3).
 enum class FieldEvent : std::uint8_t {
     smallLightChange,   ///< irradiance hysteresis -15 % for 4 frames
@@ -133,18 +142,20 @@ public:
     Result<UpdateTimes> update(std::span<const RayDatum> rayData, std::span<const FixedRayDatum> fixedRays = {});
 
     /// One update with the library's pipeline: trace, shade with `lighting` and last frame's field, blend. All surfaces
-    /// reflect as Lambert of their base colour, at most 0.98 of it: a closed room of albedo 1 has no steady state.
+    /// reflect as Lambert of their base colour, at most 0.99 of it: a closed room of albedo 1 has no steady state.
     /// Errors: outOfMemory.
     Result<UpdateTimes> update(const Tracer& tracer, const Lighting& lighting);
 
-    /// For pictures of a scene that stands still: updates until the irradiance has changed by less than `tolerance`
-    /// (relative, mean over probes) since half as many updates, or maxFrames is reached. Update k blends with weight
-    /// 3 / (k + 2), in linear instead of encoded space: the light of early updates, which lacks bounces, is forgotten
-    /// like 1 / k^3 while noise falls like 1 / sqrt(k), and the mean is unbiased.
-    /// `tolerance` > 0, maxFrames >= 1; `onUpdate`, where given, receives the times of every update.
-    /// Returns the number of updates done. Errors: cancelled, invalidArgument, outOfMemory.
-    Result<int> converge(const Tracer& tracer, const Lighting& lighting, float tolerance = 0.03f, int maxFrames = 256,
-                         const std::function<void(const UpdateTimes&)>& onUpdate = {});
+    /// For pictures of a scene that stands still: updates until the light of every region (a block of 4 x 4 x 4 probes,
+    /// each relative to its own light) is estimated to be within `tolerance` of where it goes, or maxFrames is reached.
+    /// First the bounces, one an update, then an average in linear light, which is unbiased: what is estimated is the
+    /// share of light that further bounces would add, and one and a half standard errors of the noise. The scene's and
+    /// the grid's own errors are not in it. Not counted: probes in walls, and those with less than 1e-4 of the mean
+    /// light; noise of those below 1e-2 counts as if they had that much.
+    /// `tolerance` > 0, maxFrames >= 1; `onUpdate`, where given, receives the times of every update. The field's events
+    /// and hysteresis take no part. Errors: cancelled, invalidArgument, outOfMemory.
+    Result<ConvergeResult> converge(const Tracer& tracer, const Lighting& lighting, float tolerance = 0.03f,
+                                    int maxFrames = 256, const std::function<void(const UpdateTimes&)>& onUpdate = {});
 
     /// Announces a change to the scene (section 4.3).
     void notify(FieldEvent event) noexcept;

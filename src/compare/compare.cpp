@@ -6,6 +6,7 @@
 #include <new>
 
 #include "compare/flip.h"
+#include "compare/light_ratio.h"
 
 namespace probegi {
 
@@ -39,18 +40,25 @@ double squaredDistance(glm::vec3 a, glm::vec3 b) {
     return x * x + y * y + z * z;
 }
 
-/// Relative squared error of one channel; the constant keeps black pixels of the reference from dominating.
-double relativeSquare(float t, float r) {
-    const double d = double(t) - r;
-    return d * d / (double(r) * r + 0.01);
-}
+/// The constant of relMSE: it keeps black pixels of the reference from dominating.
+constexpr double kRelmseConstant = 0.01;
 
-double relmse(const HdrImage& test, const HdrImage& reference) {
+/// Mean over pixels and channels of the squared error over reference^2 + `constant`.
+double relmse(const HdrImage& test, const HdrImage& reference, double constant) {
     double total = 0;
     for (std::size_t i = 0; i < test.pixels.size(); ++i)
-        for (int channel = 0; channel < 3; ++channel)
-            total += relativeSquare(test.pixels[i][channel], reference.pixels[i][channel]);
+        for (int channel = 0; channel < 3; ++channel) {
+            const double r = reference.pixels[i][channel];
+            const double d = test.pixels[i][channel] - r;
+            if (d != 0) total += d * d / (r * r + constant);
+        }
     return total / double(3 * test.pixels.size());
+}
+
+double meanOf(const HdrImage& image) {
+    double total = 0;
+    for (const glm::vec3& pixel : image.pixels) total += double(pixel.x) + pixel.y + pixel.z;
+    return total / double(3 * image.pixels.size());
 }
 
 Comparison compareChecked(const HdrImage& test, const HdrImage& reference, const ToneMap& toneMap) {
@@ -70,7 +78,11 @@ Comparison compareChecked(const HdrImage& test, const HdrImage& reference, const
         out.flipMap.pixels[i] = glm::vec3(flip.values[i]);
     }
     const double count = double(flip.values.size());
-    out.difference = {std::sqrt(squares / count), relmse(test, reference), flipTotal / count};
+    const double mean = meanOf(reference);
+    // A black reference has no scale of its own.
+    const double scaled = mean > 0 ? kRelmseConstant * mean * mean : kRelmseConstant;
+    out.difference = {std::sqrt(squares / count), relmse(test, reference, kRelmseConstant),
+                      relmse(test, reference, scaled), flipTotal / count, lightRatio(test, reference)};
     return out;
 }
 

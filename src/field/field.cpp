@@ -7,6 +7,7 @@
 #include <new>
 
 #include "core/progress.h"
+#include "field/convergence.h"
 #include "field/field_backend.h"
 
 namespace probegi {
@@ -14,19 +15,6 @@ namespace probegi {
 namespace {
 
 constexpr const char* kNoRayDataMemory = "no memory for the update's ray data; use fewer probes or rays";
-// Converging compares the field after this many updates, twice as many, and so on.
-constexpr int kFirstConvergenceCheck = 8;
-
-// Mean absolute difference over mean.
-float relativeChange(std::span<const float> before, std::span<const float> after) {
-    double difference = 0, sum = 0;
-    for (std::size_t i = 0; i < after.size(); ++i) {
-        difference += std::abs(double(after[i]) - before[i]);
-        sum += after[i];
-    }
-    return sum > 0 ? float(difference / sum) : 0.0f;
-}
-
 }  // namespace
 
 struct Field::Impl {
@@ -37,6 +25,21 @@ struct Field::Impl {
     Result<UpdateTimes> ended(Result<UpdateTimes> times) {
         if (times) books.advance();
         return times;
+    }
+
+    // What the convergence wants to know of the probes after an update.
+    Result<void> observe(Convergence& convergence) {
+        if (!convergence.observes()) {
+            convergence.advance({}, {});
+            return {};
+        }
+        const auto brightness = backend->brightness();
+        if (!brightness) return tl::unexpected(brightness.error());
+        std::vector<float> backfaceShares(brightness->size());
+        for (std::size_t probe = 0; probe < backfaceShares.size(); ++probe)
+            backfaceShares[probe] = backend->probeBackfaceShare(int(probe));
+        convergence.advance(*brightness, backfaceShares);
+        return {};
     }
 
     static Field make(std::unique_ptr<Impl> impl) { return Field(std::move(impl)); }
@@ -120,28 +123,23 @@ Result<UpdateTimes> Field::update(const Tracer& tracer, const Lighting& lighting
     return fail(ErrorCode::outOfMemory, kNoRayDataMemory);
 }
 
-Result<int> Field::converge(const Tracer& tracer, const Lighting& lighting, float tolerance, int maxFrames,
-                            const std::function<void(const UpdateTimes&)>& onUpdate) try {
+Result<ConvergeResult> Field::converge(const Tracer& tracer, const Lighting& lighting, float tolerance, int maxFrames,
+                                       const std::function<void(const UpdateTimes&)>& onUpdate) try {
     if (!(tolerance > 0)) return fail(ErrorCode::invalidArgument, "tolerance must be greater than 0");
     if (maxFrames < 1) return fail(ErrorCode::invalidArgument, "maxFrames must be at least 1");
     Impl& m = *m_impl;
     Progress progress(m.context, "converging probes", maxFrames);
-    std::vector<float> earlier;
-    int nextCheck = kFirstConvergenceCheck;
-    for (int k = 1; k <= maxFrames; ++k) {
-        const float kept = k == 1 ? 0.0f : 1.0f - 3.0f / float(k + 2);
-        const auto times = m.ended(m.backend->update(m.books.comingAverage(kept), tracer, lighting));
+    Convergence convergence(m.books.desc(), tolerance, maxFrames);
+    while (convergence.updates() < maxFrames && !convergence.converged()) {
+        const auto times = m.backend->update(m.books.comingAverage(convergence.kept()), tracer, lighting);
         if (!times) return tl::unexpected(times.error());
+        const auto observed = m.observe(convergence);
+        m.books.advance(convergence.turnsRays());
+        if (!observed) return tl::unexpected(observed.error());
         if (onUpdate) onUpdate(*times);
         if (!progress.advance()) return fail(ErrorCode::cancelled, "cancelled while converging probes");
-        if (k < nextCheck) continue;
-        nextCheck *= 2;
-        auto now = m.backend->brightness();
-        if (!now) return tl::unexpected(now.error());
-        if (!earlier.empty() && relativeChange(earlier, *now) < tolerance) return k;
-        earlier = std::move(*now);
     }
-    return maxFrames;
+    return ConvergeResult{convergence.updates(), convergence.converged(), convergence.remaining()};
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, kNoRayDataMemory);
 }

@@ -62,19 +62,19 @@ UpdateFrame FrameBooks::comingUpdateWithoutFixedRays() const noexcept {
     return frame;
 }
 
-UpdateFrame FrameBooks::comingAverage(float kept) const noexcept {
+UpdateFrame FrameBooks::comingAverage(FrameHysteresis kept) const noexcept {
     UpdateFrame frame = comingUpdate();
-    frame.hysteresis = {kept, kept};
+    frame.hysteresis = kept;
     frame.linear = true;
     frame.windows = false;
     frame.fixedDirections = {};
     return frame;
 }
 
-void FrameBooks::advance() {
+void FrameBooks::advance(bool turn) {
     m_events.advance();
     ++m_frame;
-    turnRays();
+    if (turn) turnRays();
 }
 
 }  // namespace probegi

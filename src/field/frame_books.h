@@ -43,10 +43,10 @@ public:
     UpdateFrame comingUpdate() const noexcept;
     /// The same for ray data that come without fixed rays.
     UpdateFrame comingUpdateWithoutFixedRays() const noexcept;
-    /// The coming update as part of an average in linear space, of whose old value `kept` survives.
-    UpdateFrame comingAverage(float kept) const noexcept;
-    /// Ends the frame: after the update.
-    void advance();
+    /// The coming update as part of an average in linear space, of whose old values `kept` survive.
+    UpdateFrame comingAverage(FrameHysteresis kept) const noexcept;
+    /// Ends the frame: after the update. Without `turn`, the coming update has the same rays again.
+    void advance(bool turn = true);
 
 private:
     void turnRays();

@@ -151,9 +151,45 @@ void forEachEntry(const Settings& settings, const std::string& list, const Add& 
     }
 }
 
+/// Numbers of the volumes besides the first.
+std::vector<std::string> furtherVolumes(const Settings& settings) {
+    constexpr std::string_view kPrefix = "ddgi.volume.";
+    std::vector<std::string> numbers;
+    for (auto entry = settings.lower_bound(std::string(kPrefix)); entry != settings.end(); ++entry) {
+        if (entry->first.compare(0, kPrefix.size(), kPrefix) != 0) break;
+        std::string number = entry->first.substr(kPrefix.size());
+        number.resize(std::min(number.find('.'), number.size()));
+        const bool known = std::find(numbers.begin(), numbers.end(), number) != numbers.end();
+        if (number != "0" && !known) numbers.push_back(std::move(number));
+    }
+    return numbers;
+}
+
+bool saysYes(const Settings& settings, const std::string& key) {
+    const std::string value = text(settings, key);
+    return !value.empty() && value != "0" && value != "false";
+}
+
+std::vector<std::string> ignoredSettings(const Settings& settings) {
+    std::vector<std::string> sentences;
+    if (const auto further = furtherVolumes(settings); !further.empty())
+        sentences.push_back(
+            fmt::format("of the settings' {} probe volumes only ddgi.volume.0 is used, {} ignored: "
+                        "light outside volume 0 is that of its nearest probes",
+                        further.size() + 1,
+                        further.size() == 1 ? further[0] + " is" : fmt::format("{} are", fmt::join(further, ", "))));
+    constexpr const char* kRotation = "ddgi.volume.0.rotation";
+    if (contains(settings, kRotation) && vector(settings, kRotation, glm::vec3(0.0f)) != glm::vec3(0.0f))
+        sentences.push_back(fmt::format("the setting {} is ignored: the probe grid lies along the axes", kRotation));
+    constexpr const char* kScrolling = "ddgi.volume.0.infiniteScrolling.enabled";
+    if (saysYes(settings, kScrolling))
+        sentences.push_back(fmt::format("the setting {} is ignored: the probe grid stands still", kScrolling));
+    return sentences;
+}
+
 }  // namespace
 
-void addHarnessSettings(std::istream& stream, Scene& scene) {
+std::vector<std::string> addHarnessSettings(std::istream& stream, Scene& scene) {
     const Settings settings = parse(stream);
     forEachEntry(settings, "scene.lights", [&](const std::string& key) { addLight(settings, key, scene); });
     forEachEntry(settings, "scene.cameras", [&](const std::string& key) { addCamera(settings, key, scene); });
@@ -162,6 +198,7 @@ void addHarnessSettings(std::istream& stream, Scene& scene) {
             number(settings, "scene.skyIntensity", 1.0f) * vector(settings, "scene.skyColor", glm::vec3(0.0f));
     }
     if (const auto grid = gridOf(settings)) scene.grid = grid;
+    return ignoredSettings(settings);
 }
 
 }  // namespace probegi::io

@@ -7,7 +7,7 @@
 KERNELS_BEGIN
 
 // Albedo of a surface in the field's bounces is at most this: a closed room of albedo 1 has no steady state.
-KERNEL_CONST float kMaxBounceAlbedo = 0.98f;
+KERNEL_CONST float kMaxBounceAlbedo = 0.99f;
 
 // Radiance that a surface of the given base colour reflects of the irradiance it receives.
 KERNEL_FN vec3 bounceRadiance(vec3 albedo, vec3 irradiance) {

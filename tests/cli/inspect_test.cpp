@@ -51,13 +51,18 @@ TEST(Inspect, CompareMeasuresAndDraws) {
         return nlohmann::json::parse(run.out);
     };
     const auto same = measure({a, a});
-    EXPECT_EQ(same.size(), 3u);
-    for (const char* key : {"rmse", "relmse", "flip"}) EXPECT_EQ(same[key], 0) << key;
+    EXPECT_EQ(same.size(), 5u);
+    for (const char* key : {"rmse", "relmse", "scaledRelmse", "flip"}) EXPECT_EQ(same[key], 0) << key;
+    EXPECT_EQ(same["ratio"]["mean"], 1);
     const auto different = measure({a, b, "--heatmap", map});
-    for (const char* key : {"rmse", "relmse", "flip"}) EXPECT_GT(different[key], 0) << key;
+    for (const char* key : {"rmse", "relmse", "scaledRelmse", "flip"}) EXPECT_GT(different[key], 0) << key;
+    for (const char* key : {"mean", "p5", "median", "p95"})
+        EXPECT_NEAR(double(different["ratio"][key]), 2, 1e-3) << key;
+    EXPECT_EQ(different["ratio"]["blocks"], 40);
     EXPECT_TRUE(readImage(map));
     EXPECT_LT(measure({a, b, "--exposure", "0.01"})["rmse"], different["rmse"]);
     EXPECT_THAT(runTool({"compare", a, b}).out, HasSubstr("flip"));
+    EXPECT_THAT(runTool({"compare", a, b}).out, HasSubstr("in 40 blocks 2.000, 2.000, 2.000"));
 }
 
 TEST(Inspect, CompareRefusesDifferentSizes) {

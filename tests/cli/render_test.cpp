@@ -69,7 +69,7 @@ TEST(Render, EveryMethodMakesAPicture) {
 }
 
 TEST(Render, UntilConverged) {
-    EXPECT_GT(mean(render({"--probes", "4x4x4", "--rays", "32"})), 0);
+    EXPECT_GT(mean(render({"--probes", "6x6x6", "--rays", "32"}, "builtin:furnace")), 0);
 }
 
 TEST(Render, ReferenceStopsAfterATime) {
@@ -124,8 +124,8 @@ TEST(Render, BuiltinParametersAndVolume) {
     const double dim = mean(render({"--method", "none", "--emission", "1"}, "builtin:furnace"));
     const double bright = mean(render({"--method", "none", "--emission", "4"}, "builtin:furnace"));
     EXPECT_NEAR(bright, 4 * dim, 1e-4 * bright);
-    EXPECT_GT(mean(render({"--volume", "-1,-1,-1:1:5x5x5", "--frames", "1", "--rays", "8", "--time-of-scene", "0.5"})),
-              0);
+    EXPECT_GT(
+        mean(render({"--volume", "-1,-1,-6.5:1:8x8x8", "--frames", "1", "--rays", "8", "--time-of-scene", "0.5"})), 0);
     EXPECT_GT(mean(render({"--method", "none", "--wall", "0.2"}, "builtin:two-rooms")), 0);
 }
 
@@ -143,6 +143,45 @@ TEST(Render, PngFollowsExposure) {
     EXPECT_NE(png("0.5", false), png("0.5", true));
 }
 
+// Eight rays a probe do not find Cornell's lamp to a hundredth of a per cent in 128 updates, but to all of it in a few.
+TEST(Render, ACapThatIsHitIsTold) {
+    const TemporaryFolder folder;
+    const auto run = [&](const char* tolerance) {
+        const ToolRun tool =
+            runTool({"render", "builtin:cornell", "-o", folder.file("a.png"), "--size", "32x18", "--probes", "3x3x3",
+                     "--rays", "8", "--tolerance", tolerance, "--stats", folder.file("s.json")});
+        EXPECT_EQ(tool.exitCode, 0) << tool.err;
+        return std::pair(tool.err, nlohmann::json::parse(readText(folder.file("s.json"))));
+    };
+    const auto [said, capped] = run("0.0001");
+    EXPECT_THAT(said, HasSubstr("warning: the probes have not converged to 0.01 % after 128 updates"));
+    EXPECT_THAT(said, HasSubstr("may still be"));
+    EXPECT_EQ(capped["converged"], false);
+    EXPECT_EQ(capped["frames"], 128);
+    EXPECT_GT(capped["remaining"], 1e-4);
+    const auto [silent, converged] = run("1");
+    EXPECT_EQ(silent, "");
+    EXPECT_EQ(converged["converged"], true);
+    EXPECT_LT(converged["remaining"], 1);
+    EXPECT_LT(converged["frames"], 128);
+}
+
+TEST(Render, AGridThatLeavesSurfacesOutIsTold) {
+    const TemporaryFolder folder;
+    const auto said = [&](const char* volume) {
+        const ToolRun tool = runTool({"render", "builtin:furnace", "-o", folder.file("a.png"), "--size", "32x18",
+                                      "--volume", volume, "--frames", "1", "--rays", "8"});
+        EXPECT_EQ(tool.exitCode, 0) << tool.err;
+        return tool.err;
+    };
+    // The furnace is 4 x 3 x 4 m around x = z = 0, its camera at (1.4, 1.6, 1.5).
+    EXPECT_EQ(said("-2.5,-0.5,-2.5:1:6x5x6"), "");
+    EXPECT_EQ(said("-1.5,0.5,-1.5:1:4x3x4"), "") << "half a cell between a wall and the outermost probes";
+    const std::string small = said("-1,0.5,-1:0.5:3x4x3");
+    EXPECT_THAT(small, HasSubstr("warning: the scene reaches 2 m beyond its probe grid"));
+    EXPECT_THAT(small, HasSubstr("warning: the camera stands 1.5 m outside the probe grid"));
+}
+
 TEST(Render, StatsHaveExactlyTheirKeys) {
     const TemporaryFolder folder;
     const ToolRun run = runTool({"render", "builtin:cornell", "-o", folder.file("a.png"), "--size", "32x18", "--stats",
@@ -154,12 +193,13 @@ TEST(Render, StatsHaveExactlyTheirKeys) {
         for (const auto& [name, value] : object.items()) names.push_back(name);
         return names;
     };
-    EXPECT_THAT(keys(stats), testing::UnorderedElementsAre("probes", "raysPerProbe", "frames", "updateMs", "pictureMs",
-                                                           "peakMemoryBytes"));
+    EXPECT_THAT(keys(stats), testing::UnorderedElementsAre("probes", "raysPerProbe", "frames", "converged", "remaining",
+                                                           "updateMs", "pictureMs", "peakMemoryBytes"));
     EXPECT_THAT(keys(stats["updateMs"]), testing::UnorderedElementsAre("trace", "shade", "blend", "total"));
     EXPECT_EQ(stats["probes"], 120);
     EXPECT_EQ(stats["raysPerProbe"], 24);
     EXPECT_EQ(stats["frames"], 3);
+    EXPECT_TRUE(stats["converged"].is_null()) << "real-time updates do not say";
     EXPECT_GT(stats["updateMs"]["total"], 0);
     EXPECT_GT(stats["pictureMs"], 0);
     EXPECT_GT(stats["peakMemoryBytes"], 1 << 20);

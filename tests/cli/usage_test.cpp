@@ -83,11 +83,11 @@ TEST(Usage, MainHelpSaysWhatToTypeFirst) {
 TEST(Usage, HelpOfRenderListsEveryOption) {
     const std::string help = runTool({"render", "--help"}).out;
     for (const char* option :
-         {"--output",   "--method",   "--size",    "--camera",        "--probes",       "--rays",
-          "--frames",   "--spp",      "--time",    "--seed",          "--threads",      "--aov",
-          "--exposure", "--sun",      "--point",   "--sky",           "--look-from",    "--look-at",
-          "--fov",      "--volume",   "--stats",   "--time-of-scene", "--diffuse-only", "--wall",
-          "--albedo",   "--emission", "--backend", "--device",        "--tracer",       "--shader-cache"})
+         {"--output",        "--method",       "--size",      "--camera",  "--probes",   "--rays",     "--frames",
+          "--spp",           "--time",         "--seed",      "--threads", "--aov",      "--exposure", "--sun",
+          "--point",         "--sky",          "--look-from", "--look-at", "--fov",      "--volume",   "--stats",
+          "--time-of-scene", "--diffuse-only", "--wall",      "--albedo",  "--emission", "--backend",  "--device",
+          "--tracer",        "--shader-cache", "--tolerance"})
         EXPECT_THAT(help, HasSubstr(option));
 }
 

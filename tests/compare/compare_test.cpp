@@ -65,6 +65,69 @@ TEST(Compare, relmseIsLinearAndUnclipped) {
     EXPECT_NEAR(result->difference.relmse, 4 / 16.01, 1e-6);
 }
 
+// A picture of which every pixel has 65 % of the light: the ratios say so, however dark it is; relMSE with its fixed
+// constant says so only where it is bright, with one that follows the picture everywhere.
+TEST(Compare, aFactorOnTheLightIsItsRatio) {
+    for (const float brightness : {0.02f, 1.0f, 50.0f}) {
+        HdrImage reference = gradient(96, 55);
+        for (glm::vec3& pixel : reference.pixels) pixel = brightness * (pixel + 0.3f);
+        HdrImage test = reference;
+        for (glm::vec3& pixel : test.pixels) pixel *= 0.65f;
+        const auto result = compareImages(test, reference);
+        ASSERT_TRUE(result);
+        const LightRatio& ratio = result->difference.ratio;
+        for (const double r : {ratio.mean, ratio.low, ratio.median, ratio.high}) EXPECT_NEAR(r, 0.65, 1e-5);
+        EXPECT_EQ(ratio.blocks, 40);
+        EXPECT_NEAR(result->difference.scaledRelmse, 0.35 * 0.35, 0.01);
+        EXPECT_EQ(result->difference.relmse < 0.01, brightness < 0.1f) << result->difference.relmse;
+    }
+}
+
+TEST(Compare, scaledRelmseByHand) {
+    HdrImage test(2, 1), reference(2, 1);
+    reference.at(0, 0) = glm::vec3(2);  // the mean is 1
+    test.at(0, 0) = glm::vec3(1);
+    test.at(1, 0) = glm::vec3(0.5f);
+    const auto result = compareImages(test, reference);
+    ASSERT_TRUE(result);
+    EXPECT_NEAR(result->difference.scaledRelmse, 0.5 * (1 / 4.01 + 0.25 / 0.01), 1e-6);
+}
+
+// Eight blocks abreast and five one above the other: a room that fills three of the forty and is 35 % too dark moves
+// the 5th percentile, and hardly the mean where it is dim.
+TEST(Compare, aDarkRoomShowsInThePercentiles) {
+    HdrImage reference(80, 50, glm::vec3(1));
+    for (int y = 0; y < 10; ++y)
+        for (int x = 0; x < 30; ++x) reference.at(x, y) = glm::vec3(0.01f);
+    HdrImage test = reference;
+    for (int y = 0; y < 10; ++y)
+        for (int x = 0; x < 30; ++x) test.at(x, y) *= 0.65f;
+    const auto result = compareImages(test, reference);
+    ASSERT_TRUE(result);
+    const LightRatio& ratio = result->difference.ratio;
+    EXPECT_NEAR(ratio.low, 0.65, 1e-5);
+    EXPECT_NEAR(ratio.median, 1, 1e-6);
+    EXPECT_NEAR(ratio.high, 1, 1e-6);
+    EXPECT_NEAR(ratio.mean, 1, 1e-3);
+    EXPECT_EQ(ratio.blocks, 40);
+}
+
+TEST(Compare, blackBlocksHaveNoRatio) {
+    HdrImage reference(80, 50);
+    for (int y = 0; y < 10; ++y)
+        for (int x = 0; x < 20; ++x) reference.at(x, y) = glm::vec3(1, 0, 0);
+    const auto result = compareImages(HdrImage(80, 50, glm::vec3(0.5f)), reference);
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->difference.ratio.blocks, 2);
+    EXPECT_NEAR(result->difference.ratio.median, 0.5 / 0.2126, 1e-3) << "luminance";
+    EXPECT_NEAR(result->difference.ratio.mean, 40 * 0.5 / (2 * 0.2126), 1e-3);
+
+    const auto black = compareImages(HdrImage(3, 2, glm::vec3(1)), HdrImage(3, 2));
+    ASSERT_TRUE(black);
+    EXPECT_EQ(black->difference.ratio.blocks, 0);
+    EXPECT_EQ(black->difference.ratio.mean, 0);
+}
+
 TEST(Compare, exposureReachesTheDisplayedMetrics) {
     const HdrImage test(3, 2, glm::vec3(6));
     const HdrImage reference(3, 2, glm::vec3(4));

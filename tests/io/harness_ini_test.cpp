@@ -79,6 +79,30 @@ TEST(HarnessIni, ReadsSkyAndGrid) {
     expectNear(0.5f * (scene->grid->origin + probePosition(*scene->grid, 9 * 5 * 3 - 1)), {0, 1, 0});
 }
 
+std::vector<std::string> ignoredOf(const std::string& text) {
+    Scene scene;
+    std::istringstream stream(text);
+    return io::addHarnessSettings(stream, scene);
+}
+
+TEST(HarnessIni, SaysWhatItIgnores) {
+    const std::string volume = "ddgi.volume.0.probeCounts=9 5 3\n";
+    EXPECT_THAT(ignoredOf(volume + "ddgi.volume.0.infiniteScrolling.enabled=0\nddgi.volume.0.rotation=0 0 0\n"),
+                testing::IsEmpty());
+    const auto volumes = ignoredOf(volume +
+                                   "ddgi.volume.1.probeCounts=2 2 2\nddgi.volume.1.name=a\n"
+                                   "ddgi.volume.10.origin=1 2 3\nddgi.volume.2.name=b\n");
+    ASSERT_EQ(volumes.size(), 1u);
+    EXPECT_THAT(volumes[0], HasSubstr("4 probe volumes"));
+    EXPECT_THAT(volumes[0], HasSubstr("1, 10, 2 are ignored"));
+    const auto turned = ignoredOf(volume + "ddgi.volume.0.rotation=0 0.5 0\n");
+    ASSERT_EQ(turned.size(), 1u);
+    EXPECT_THAT(turned[0], HasSubstr("ddgi.volume.0.rotation is ignored"));
+    const auto scrolling = ignoredOf(volume + "ddgi.volume.0.infiniteScrolling.enabled=1\n");
+    ASSERT_EQ(scrolling.size(), 1u);
+    EXPECT_THAT(scrolling[0], HasSubstr("infiniteScrolling.enabled is ignored"));
+}
+
 TEST(HarnessIni, OtherSettingsChangeNothing) {
     const auto scene = readSettings("app.width=1920\n[section]\nkey=value\npp.enable=1\njust words\n");
     ASSERT_TRUE(scene) << scene.error().message;

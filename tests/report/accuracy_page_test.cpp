@@ -48,8 +48,28 @@ TEST_F(AccuracyPage, missingPageIsAnError) {
 }
 
 TEST(AccuracyTables, leakInPercentAndCentimetres) {
-    const std::string text = accuracyTables({}, {{0.05f, {0.5, 0.75}, {0.004, 0.0061}}}, 2);
-    EXPECT_THAT(text, HasSubstr("| 5 cm | 50.00 % | 75.00 % | 0.400 % | 0.610 % |"));
+    const std::string text = accuracyTables({}, {{0.05f, {0.5, 0.75}, {0.004, 0.0061}, {0.005, 0.007}}}, 2);
+    EXPECT_THAT(text, HasSubstr("| 5 cm | 50.00 % | 75.00 % | 0.400 % | 0.610 % | 0.500 % | 0.700 % |"));
+}
+
+// Both ways of running stand in every table, with the probes behind the medians and whether the field had converged.
+TEST(AccuracyTables, bothWaysOfRunning) {
+    MeasuredScene measured;
+    measured.name = "a room";
+    tool::RenderedScene& scene = measured.scene;
+    scene.truth.probes.resize(7);
+    scene.ddgiField.run = {std::vector<UpdateTimes>(9), ConvergeResult{9, false, 0.031f}};
+    scene.realtime.emplace();
+    scene.realtime->field.run.updates.resize(300);
+    scene.realtime->field.ratio = {0.8, 0.9, 1.1};
+    scene.realtime->method.indirectOnly.ratio = {0.65, 0.5, 0.6, 0.7, 40};
+    scene.indirectNoiseFloor.flip = 0.0123;
+    const std::string text = accuracyTables({measured}, {}, 1);
+    EXPECT_THAT(text, HasSubstr("with its guard, `converge` | 9 | no: 3.1 % left | 0.000 | 0.000 | 0.000 | 7 |"));
+    EXPECT_THAT(text, HasSubstr("with its guard, `update` | 300 |  | 0.800 | 0.900 | 1.100 | 7 |"));
+    EXPECT_THAT(text,
+                HasSubstr("field, `update` | 0.0000 | 0.0000 | 0.0000 | 0.0000 | 0.650 | 0.500 | 0.600 | 0.700 |"));
+    EXPECT_THAT(text, HasSubstr("*an exact picture* | 0.0000 | 0.0000 | 0.0000 | 0.0123 |"));
 }
 
 }  // namespace

@@ -1,0 +1,79 @@
+#include "field_run.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "parse.h"
+#include "terminal.h"
+
+namespace probegi::tool {
+
+namespace {
+
+float toleranceOf(const FieldRunOptions& options) {
+    return options.tolerance.value_or(kConvergeTolerance);
+}
+
+std::string remainingText(const ConvergeResult& result) {
+    if (!std::isfinite(result.remaining)) return "too few updates to tell how much light is missing";
+    if (result.remaining > 1) return "the light of the worst region may still be more than 100 % off";
+    return fmt::format("the light of the worst region may still be {:.2g} % off", 100 * result.remaining);
+}
+
+Result<FieldRun> updateField(Field& field, const Tracer& tracer, const Lighting& lighting, int frames) {
+    FieldRun run;
+    LoopProgress progress("updating probes", frames);
+    for (int frame = 0; frame < frames; ++frame) {
+        progress.done(frame);
+        const auto times = field.update(tracer, lighting);
+        if (!times) return tl::unexpected(times.error());
+        run.updates.push_back(*times);
+    }
+    return run;
+}
+
+}  // namespace
+
+void addFieldRunOptions(CLI::App& command, FieldRunOptions& options) {
+    auto* frames =
+        command
+            .add_option("--frames", options.frames,
+                        "fill the probes as an engine does, by N real-time updates that forget old light bit by bit "
+                        "(default: average a still scene until converged)")
+            ->type_name("N")
+            ->check(inRange(1, 1e6));
+    command
+        .add_option("--tolerance", options.tolerance,
+                    fmt::format("converged when the light of every region is within this share, 0.0001 to 1 (default "
+                                "{}; stops after {} updates)",
+                                kConvergeTolerance, kConvergeMaxUpdates))
+        ->type_name("SHARE")
+        ->check(inRange(1e-4, 1))
+        ->excludes(frames);
+}
+
+Result<FieldRun> runField(Field& field, const Tracer& tracer, const Lighting& lighting,
+                          const FieldRunOptions& options) {
+    if (options.frames) return updateField(field, tracer, lighting, *options.frames);
+    FieldRun run;
+    const auto record = [&](const UpdateTimes& times) { run.updates.push_back(times); };
+    const auto done = field.converge(tracer, lighting, toleranceOf(options), kConvergeMaxUpdates, record);
+    if (!done) return tl::unexpected(done.error());
+    run.convergence = *done;
+    if (!done->converged)
+        printWarning(
+            fmt::format("the probes have not converged to {:.2g} % after {} updates: {}; give more --rays or "
+                        "a larger --tolerance",
+                        100 * toleranceOf(options), done->updates, remainingText(*done)));
+    return run;
+}
+
+std::string describeRun(const FieldRun& run, const FieldRunOptions& options) {
+    if (!run.convergence) return fmt::format("{} real-time updates", run.updates.size());
+    const std::string ending = run.convergence->converged ? "converged to" : "not converged to";
+    return fmt::format("{} updates; {} {:.2g} %: {}", run.updates.size(), ending, 100 * toleranceOf(options),
+                       remainingText(*run.convergence));
+}
+
+}  // namespace probegi::tool

@@ -1,0 +1,199 @@
+#include "field/convergence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/bounce.h"
+#include "kernels/probe_query.h"
+
+namespace probegi {
+
+namespace {
+
+constexpr int kRegionSide = 4;  // probes
+constexpr int kFirstCheck = 8;  // averaged updates
+// Light of a probe, in shares of the mean probe's: below the first it does not count, below the second its noise counts
+// as if it had that much (a leak into a sealed room is noisy for ever, and nobody sees it).
+constexpr double kBlack = 1e-4;
+constexpr double kDim = 1e-2;
+// Bounces are followed until what they miss is this share of the tolerance; the rest is for noise.
+constexpr double kShareOfBounces = 0.5;
+// An update steps ahead where that should leave at most this share of what is missing.
+constexpr double kWorthStepping = 0.4;
+// Standard deviation of a probe's change for its dithered storage, relative, at most, times the side of its map: half a
+// step of a half float to the fifth power, from update to update, over the map's texels.
+constexpr double kStorageNoise = 3.5e-3;
+// Changes are seen from so many of these on.
+constexpr double kSignificant = 3;
+// A rate is known where its noise, two of these over a change, is below a quarter of what it lacks to 1.
+constexpr double kNoiseInRate = 8;
+// While light still spreads into dark rooms, rates are too large: an older one counts for this much less each time.
+constexpr double kForgetSlowest = 0.7;
+constexpr double kMaxRate = double(kernels::kMaxBounceAlbedo);
+
+// Standard errors of the worst region that count as what its noise may still be. Noise that a region shares with all
+// that it sees comes back with the bounces: that is seen only where all regions share it (see checkAverage).
+constexpr double kStandardErrors = 1.5;
+// Squared standard error of the average, in shares of an update's variance over n: weights 3 / (k + 2).
+constexpr double kAverageVariance = 9.0 / 5.0;
+
+}  // namespace
+
+Convergence::Convergence(const FieldDesc& desc, float tolerance, int maxUpdates)
+    : m_grid(desc.grid),
+      m_probeNoise(kStorageNoise / desc.irradianceTexels),
+      m_tolerance(tolerance),
+      m_maxUpdates(maxUpdates) {}
+
+FrameHysteresis Convergence::kept() const noexcept {
+    if (m_averaged > 0) {
+        const float n = float(m_averaged);
+        return {1.0f - 3.0f / (n + 2), 1.0f - 1.0f / (n + float(m_turned))};
+    }
+    if (m_updates < kTurnedUpdates) return {0.0f, 1.0f - 1.0f / float(m_updates + 1)};
+    return {float(-m_ahead), 1.0f};
+}
+
+// Half of the updates are for the average at least.
+bool Convergence::lastBeforeAverage() const noexcept {
+    return 2 * (m_updates + 1) >= m_maxUpdates;
+}
+
+void Convergence::advance(std::span<const float> brightness, std::span<const float> backfaceShares) {
+    const bool observed = observes(), last = lastBeforeAverage();
+    if (m_averaged == 0) m_turned = std::min(m_turned + 1, kTurnedUpdates);
+    ++m_updates;
+    if (observed) observe(brightness, backfaceShares);
+    if (m_averaged > 0)
+        ++m_averaged;
+    else if (m_followed || last)
+        m_averaged = 1;
+}
+
+void Convergence::observe(std::span<const float> brightness, std::span<const float> backfaceShares) {
+    if (m_last.empty()) {
+        makeRegions(backfaceShares);
+    } else {
+        measureChanges(brightness, m_averaged > 0 ? kDim : kBlack);
+        m_averaged > 0 ? checkAverage() : followBounces();
+    }
+    m_before = std::move(m_last);
+    m_last.assign(brightness.begin(), brightness.end());
+}
+
+void Convergence::makeRegions(std::span<const float> backfaceShares) {
+    const glm::ivec3 blocks = (m_grid.counts + kRegionSide - 1) / kRegionSide;
+    m_regions.resize(std::size_t(blocks.x * blocks.y * blocks.z));
+    for (int probe = 0; probe < probeCount(m_grid); ++probe) {
+        if (backfaceShares[std::size_t(probe)] > kernels::kInsideShare) continue;
+        const int row = probe / m_grid.counts.x;
+        const int x = probe % m_grid.counts.x / kRegionSide, y = row % m_grid.counts.y / kRegionSide,
+                  z = row / m_grid.counts.y / kRegionSide;
+        m_regions[std::size_t(x + blocks.x * (y + blocks.y * z))].probes.push_back(probe);
+    }
+    std::erase_if(m_regions, [](const Region& region) { return region.probes.empty(); });
+}
+
+void Convergence::measureChanges(std::span<const float> now, double floor) {
+    double mean = 0, probes = 0;
+    for (const Region& region : m_regions) {
+        for (const int probe : region.probes) mean += now[std::size_t(probe)];
+        probes += double(region.probes.size());
+    }
+    mean /= std::max(probes, 1.0);
+    for (Region& region : m_regions) {
+        region.change = region.earlier = 0;
+        region.counting = 0;
+        for (const int probe : region.probes) {
+            const auto p = std::size_t(probe);
+            if (!(now[p] > kBlack * mean)) continue;
+            const double light = std::max(0.5 * (double(now[p]) + m_last[p]), floor * mean);
+            region.change += (double(now[p]) - m_last[p]) / light;
+            if (!m_before.empty()) region.earlier += (double(m_last[p]) - m_before[p]) / light;
+            ++region.counting;
+        }
+        if (!region.counts()) continue;
+        region.change /= region.counting;
+        region.earlier /= region.counting;
+    }
+}
+
+double Convergence::storageNoise(const Region& region) const noexcept {
+    return m_probeNoise / std::sqrt(double(std::max(region.counting, 1)));
+}
+
+// Rate of two changes that follow each other, of which storage blurs each by `noise`.
+double Convergence::rateOf(double change, double earlier, double noise) const noexcept {
+    const double known = 1 - kNoiseInRate * noise / std::max(std::abs(earlier), 1e-30);
+    if (known <= 0) return m_rate;
+    const double rate = std::clamp(change / earlier, 0.0, kMaxRate);
+    return rate <= known ? rate : std::min(rate, std::max(known, m_rate));
+}
+
+void Convergence::measureRate() noexcept {
+    double now = 0, earlier = 0, noise2 = 0;
+    for (const Region& region : m_regions) {
+        now += std::abs(region.change);
+        earlier += std::abs(region.earlier);
+        noise2 += std::pow(storageNoise(region), 2);
+    }
+    m_rate = rateOf(now, earlier, std::sqrt(noise2));
+    m_slowest = std::max(m_rate / (1 - m_rate), kForgetSlowest * m_slowest);
+}
+
+// How many of its last changes a region's light is away from where it goes.
+double Convergence::updatesAhead(const Region& region) const noexcept {
+    const double rate = rateOf(region.change, region.earlier, storageNoise(region));
+    return rate / (1 - rate);
+}
+
+void Convergence::followBounces() {
+    m_ahead = 0;
+    if (++m_differences < 2) return;
+    measureRate();
+    // One number of steps for all regions: the least squares of what it leaves.
+    double product = 0, square = 0, left = 0;
+    m_missing = 0;
+    for (const Region& region : m_regions) {
+        const double seen = std::max(std::abs(region.change) - kSignificant * storageNoise(region), 0.0);
+        const double ahead = updatesAhead(region);
+        product += seen * seen * ahead;
+        square += seen * seen;
+        m_missing = std::max(m_missing, seen * std::max(ahead, m_slowest));
+    }
+    const double ahead = square > 0 ? product / square : 0;
+    for (const Region& region : m_regions) {
+        const double seen = std::max(std::abs(region.change) - kSignificant * storageNoise(region), 0.0);
+        left = std::max(left, seen * std::abs(ahead - updatesAhead(region)));
+    }
+    m_remaining = float(m_missing);
+    m_followed = m_missing < kShareOfBounces * m_tolerance;
+    if (!m_followed && m_differences >= 3 && ahead > 1 && left < kWorthStepping * m_missing) {
+        m_ahead = ahead;
+        m_differences = -1;  // the coming update's own difference, and the next one's, say nothing
+    }
+}
+
+void Convergence::checkAverage() {
+    const double n = m_averaged, weight = 3 / (n + 2);
+    double worst = 0, common = 0, counting = 0;
+    for (Region& region : m_regions) {
+        if (!region.counts()) continue;
+        common += region.change;
+        ++counting;
+        if (m_averaged == 1) continue;  // so far the average is one update
+        // The update against the average of those before, which has noise of its own.
+        region.residual2 += std::pow(region.change / weight, 2) / (1 + kAverageVariance / (n - 1));
+        worst = std::max(worst, region.residual2 / (n - 1));
+    }
+    m_common.push_back((m_common.empty() ? 0.0 : m_common.back()) + common / std::max(counting, 1.0));
+    if (m_averaged < kFirstCheck) return;
+    // What all regions have in common is what the bounces keep: from half as many updates it has fallen by this factor.
+    const double power = 3 / (1 + m_slowest);
+    const double lately = std::abs(m_common.back() - m_common[m_common.size() / 2 - 1]);
+    m_remaining = float(kStandardErrors * std::sqrt(kAverageVariance * worst / n) +
+                        lately / (std::pow(2.0, power) - 1) + m_missing * std::pow(n, -power));
+    m_converged = m_remaining < m_tolerance;
+}
+
+}  // namespace probegi

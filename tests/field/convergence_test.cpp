@@ -1,0 +1,149 @@
+// The books of Field::converge against rooms of which every update is a closed form: light that arrives is that of the
+// lamps and the albedo's share of the light that was there.
+#include "field/convergence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace probegi {
+namespace {
+
+// Blocks of 4 x 4 x 4 probes along x, each a room of its own.
+struct Room {
+    double light = 1;   ///< that lamps bring
+    double albedo = 0;  ///< the room ends at light / (1 - albedo)
+    double noise = 0;   ///< standard deviation of an update's light, relative, the same at all its probes
+    float backfaceShare = 0;
+    double truth() const { return light / (1 - albedo); }
+};
+
+struct Ending {
+    std::vector<double> rooms;  ///< light
+    Convergence books;
+};
+
+Ending converge(const std::vector<Room>& rooms, float tolerance, int maxUpdates, int seed = 1) {
+    FieldDesc desc;
+    desc.grid.counts = {4 * int(rooms.size()), 4, 4};
+    Ending end{std::vector<double>(rooms.size()), Convergence(desc, tolerance, maxUpdates)};
+    std::mt19937 random{std::uint32_t(seed)};
+    std::normal_distribution<double> normal;
+    std::vector<double> turned(rooms.size());
+    const auto probes = std::size_t(probeCount(desc.grid));
+    while (end.books.updates() < maxUpdates && !end.books.converged()) {
+        const double kept = end.books.kept().irradiance;
+        for (std::size_t i = 0; i < rooms.size(); ++i) {
+            if (end.books.turnsRays()) turned[i] = 1 + rooms[i].noise * normal(random);
+            const double now = turned[i] * (rooms[i].light + rooms[i].albedo * end.rooms[i]);
+            end.rooms[i] = std::max(0.0, kept * end.rooms[i] + (1 - kept) * now);
+        }
+        std::vector<float> brightness, shares;
+        for (std::size_t p = 0; p < probes && end.books.observes(); ++p) {
+            const std::size_t room = p % (4 * rooms.size()) / 4;
+            brightness.push_back(float(end.rooms[room]));
+            shares.push_back(rooms[room].backfaceShare);
+        }
+        end.books.advance(brightness, shares);
+    }
+    return end;
+}
+
+TEST(Convergence, everyRoomArrivesHoweverBright) {
+    const std::vector<Room> rooms{{1, 0.5}, {1e-3, 0.8}, {10, 0.0}, {0.01, 0.9}};
+    const Ending end = converge(rooms, 0.01f, 128);
+    EXPECT_TRUE(end.books.converged());
+    EXPECT_LT(end.books.remaining(), 0.01f);
+    EXPECT_LE(end.books.updates(), 64);
+    for (std::size_t i = 0; i < rooms.size(); ++i) EXPECT_NEAR(end.rooms[i] / rooms[i].truth(), 1, 0.01) << i;
+}
+
+// One albedo everywhere: two differences say where the light goes, and one update goes there.
+TEST(Convergence, stepsAheadOfManyBounces) {
+    for (const double albedo : {0.5, 0.8, 0.9, 0.95, 0.99}) {
+        const std::vector<Room> rooms{{1, albedo}, {0.1, albedo}};
+        const Ending end = converge(rooms, 0.01f, 128);
+        EXPECT_TRUE(end.books.converged()) << albedo;
+        EXPECT_LE(end.books.updates(), 24) << albedo;
+        for (std::size_t i = 0; i < rooms.size(); ++i) EXPECT_NEAR(end.rooms[i] / rooms[i].truth(), 1, 1e-3) << albedo;
+    }
+}
+
+struct Averaged {
+    double updates = 0;  ///< mean
+    double within = 0;   ///< share of the runs that end within the tolerance
+};
+
+Averaged average(const std::vector<Room>& rooms, float tolerance) {
+    constexpr int kRuns = 400;
+    Averaged result;
+    for (int run = 0; run < kRuns; ++run) {
+        const Ending end = converge(rooms, tolerance, 1000, run);
+        EXPECT_TRUE(end.books.converged());
+        result.updates += double(end.books.updates()) / kRuns;
+        result.within += std::abs(end.rooms[0] / rooms[0].truth() - 1) < tolerance ? 1.0 / kRuns : 0.0;
+    }
+    return result;
+}
+
+// Stops when one and a half standard errors of the noisiest room are within the tolerance. Noise that a whole room
+// shares comes back with its bounces, which the scatter of the updates does not show: the truth is met less often.
+TEST(Convergence, noiseIsAveragedUntilItIsSmall) {
+    const Averaged direct = average({{1, 0, 0.03}, {1e-2, 0, 0.01}}, 0.02f);
+    EXPECT_GT(direct.within, 0.75) << direct.updates;
+    EXPECT_GT(direct.updates, 12);
+    EXPECT_LT(direct.updates, 40);
+    EXPECT_GT(average({{1, 0.5, 0.03}, {1e-2, 0.5, 0.01}}, 0.02f).within, 0.6);
+    // Twice the noise takes about four times the updates.
+    const double more = average({{1, 0, 0.06}, {1e-2, 0, 0.01}}, 0.02f).updates;
+    EXPECT_GT(more, 2 * direct.updates);
+    EXPECT_LT(more, 6 * direct.updates);
+}
+
+TEST(Convergence, aCapThatIsHitIsTold) {
+    const Ending noisy = converge({{1, 0.5, 0.5}}, 0.01f, 32);
+    EXPECT_FALSE(noisy.books.converged());
+    EXPECT_EQ(noisy.books.updates(), 32);
+    EXPECT_GT(noisy.books.remaining(), 0.01f);
+    EXPECT_LT(noisy.books.remaining(), 2.0f);
+    // Too few to follow the bounces: at least as much is missing as was said.
+    const Ending slow = converge({{1, 0.5}, {1, 0.9}, {1, 0.95}}, 0.01f, 24);
+    const double missing = 1 - slow.rooms[2] * 0.05;
+    EXPECT_TRUE(slow.books.converged() ? missing < 0.01 : missing < 1.5 * slow.books.remaining()) << missing;
+    const Ending few = converge({{1, 0.5}}, 0.01f, 3);
+    EXPECT_FALSE(few.books.converged());
+    EXPECT_TRUE(std::isinf(few.books.remaining()));
+}
+
+// A wall's probes, and a room that no light reaches but some noise, hold up nothing.
+TEST(Convergence, wallsAndBlackRoomsDoNotBlock) {
+    Room wall{1, 0.5, 0.9};
+    wall.backfaceShare = 0.6f;
+    const Ending end = converge({{1, 0.5}, wall, {1e-5, 0, 0.9}, {0, 0}}, 0.01f, 128);
+    EXPECT_TRUE(end.books.converged());
+    EXPECT_LE(end.books.updates(), 24);
+    EXPECT_NEAR(end.rooms[0], 2, 0.02);
+    EXPECT_TRUE(converge({{0, 0}}, 0.01f, 128).books.converged()) << "all black";
+}
+
+// The average's weights 3 / (n + 2) forget the first ray set; distances average all sets that turned.
+TEST(Convergence, keepsWhatItSays) {
+    FieldDesc desc;
+    desc.grid.counts = {4, 4, 4};
+    Convergence books(desc, 0.01f, 4);
+    EXPECT_EQ(books.kept().irradiance, 0);
+    EXPECT_EQ(books.kept().visibility, 0);
+    books.advance({}, {});
+    EXPECT_NEAR(books.kept().visibility, 0.5, 1e-6);
+    books.advance({}, {});  // half of four updates: the average begins
+    EXPECT_EQ(books.kept().irradiance, 0);
+    EXPECT_TRUE(books.turnsRays());
+    const std::vector<float> light(64, 1.0f), shares(64, 0.0f);
+    books.advance(light, shares);
+    EXPECT_NEAR(books.kept().irradiance, 0.25, 1e-6);
+    EXPECT_NEAR(books.kept().visibility, 0.75, 1e-6);
+}
+
+}  // namespace
+}  // namespace probegi
