@@ -1,8 +1,8 @@
 // From the light that a cage's probes see to the light at the surface. Probes behind a surface do not count, so its
 // light is read up to a cell in front of it, nearer to whatever lights it: 3 to 5 % too bright on average, far more
 // under a lamp. How light changes along the normal is known from the layer of probes beyond the cage's front, and what
-// that predicts for the way back to the surface is taken away. Hardly anything is ever added: where light seems to rise
-// towards a surface, the probe beyond is mostly in the shade of something else (measured: docs/accuracy.md).
+// that predicts for the way back to the surface is taken away. Nothing is ever added: where light seems to rise towards
+// a surface, the probe beyond is mostly in the shade of something else (measured: docs/accuracy.md).
 #ifndef PROBEGI_KERNELS_SURFACE_GRADIENT_H
 #define PROBEGI_KERNELS_SURFACE_GRADIENT_H
 
@@ -10,10 +10,8 @@
 
 KERNELS_BEGIN
 
-// The largest shares of the (square root of the) light that are taken away and added. With more to add, the field is
-// too bright under trees; with nothing, noise alone would take light away and bounces would multiply the loss.
+// The largest share of the (square root of the) light that is taken away.
 KERNEL_CONST float kMaxTaken = 0.5f;
-KERNEL_CONST float kMaxAdded = 0.015f;
 // Weight of the pairs of probes at which their gradient is trusted in full.
 KERNEL_CONST float kTrustedWeight = 0.1f;
 // Lead of the normal's largest component over the next at which its axis counts in full.
@@ -43,10 +41,13 @@ KERNEL_FN float cellsAhead(float ahead, float axisSpacing, float normalOnAxis) {
 
 // One channel at the surface. `root`: what the cage answers; `rise`: sum over the pairs of weight times what the probe
 // beyond has more than the one in front, both in the space of decodeToBlendSpace(); `pairWeight`: sum of the weights.
+// A steep rise is damped: light that falls by its own size within a cell is not linear.
 KERNEL_FN Real rootAtSurface(Real root, Real rise, float pairWeight, float cells, float trust) {
     const float known = cells * trust * min(1.0f, pairWeight * (1.0f / kTrustedWeight));
-    const Real change = rise * (known / (pairWeight + 1e-20f));  // 0 where there are no pairs
-    return root - min(max(change, root * -kMaxAdded), root * kMaxTaken);
+    // The tiny addends decide 0 / 0: no pairs, or no light.
+    const Real slope = max(rise, Real(0.0f)) * (1.0f / (pairWeight + 1e-20f));
+    const Real damped = slope * root / (slope + root + 1e-20f);
+    return root - min(damped * known, root * kMaxTaken);
 }
 
 KERNELS_END

@@ -12,6 +12,8 @@ void evaluate(INOUT(Lane) lane) {
 
     giveVec3(lane, selfShadowBias(normal, toViewer, 1.5f, 0.3f), 1e-6f);
     for (int rules = 0; rules < 2; ++rules) {
+        give(lane, backfaceFloor(rules), 0.0f);
+        give(lane, chebyshevFloor(rules), 0.0f);
         giveVec3(lane, visibilityBias(normal, toViewer, 1.5f, 0.3f, rules), 1e-6f);
         giveVec3(lane, cageBias(normal, toViewer, 1.5f, 0.3f, rules), 1e-6f);
         give(lane, backfaceWeight(dot(normal, toViewer), rules), 1e-6f);
