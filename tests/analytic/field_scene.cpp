@@ -42,7 +42,7 @@ void FieldScene::run(int frames) {
     for (int i = 0; i < frames; ++i) ASSERT_TRUE(field.update(*tracer, lighting));
 }
 
-std::vector<FieldQuery> FieldScene::surfaceQueries(int count) const {
+std::vector<FieldQuery> FieldScene::surfaceQueries(int count, float mostBacks) const {
     std::vector<FieldQuery> queries;
     std::uint32_t state = 17;
     const auto random = [&] { return kernels::nextRandom(state); };
@@ -50,7 +50,9 @@ std::vector<FieldQuery> FieldScene::surfaceQueries(int count) const {
     for (int attempt = 0; attempt < 100 * count && int(queries.size()) < count; ++attempt) {
         const float z = 2 * random() - 1, phi = 6.2831853f * random(), r = std::sqrt(1 - z * z);
         Ray ray;
-        ray.origin = probePosition(grid, int(random() * float(probeCount(grid))));
+        const int probe = int(random() * float(probeCount(grid)));
+        if (field.probeBackfaceShare(probe) > mostBacks) continue;
+        ray.origin = probePosition(grid, probe);
         ray.direction = {r * std::cos(phi), r * std::sin(phi), z};
         Hit hit;
         Surface surface;

@@ -16,7 +16,8 @@ struct FieldScene {
     void run(int frames);
 
     /// Points on surfaces, found by random rays from probes that see a front face, with the view back along the ray.
-    std::vector<FieldQuery> surfaceQueries(int count) const;
+    /// Probes with a larger share of backfaces than `mostBacks` are not asked.
+    std::vector<FieldQuery> surfaceQueries(int count, float mostBacks = 1.0f) const;
 
     Context context;
     Scene scene;

@@ -22,7 +22,7 @@ using kernels::Question;
 constexpr std::size_t kQuestions = 20000;
 constexpr float kTolerance = 1e-4f;
 
-static_assert(sizeof(Question) == 32 && sizeof(Answer) == 132 && sizeof(kernels::Push) == 28);
+static_assert(sizeof(Question) == 32 && sizeof(Answer) == 136 && sizeof(kernels::Push) == 28);
 
 std::vector<std::uint8_t> noise(int width, int height, std::mt19937& random, int leastBlue = 0) {
     std::vector<std::uint8_t> rgba(std::size_t(4 * width * height));
