@@ -141,12 +141,16 @@ Result<void> drawReference(const PathTracer& pathTracer, const LoadedSetup& setu
     scene.referenceSamples = reference->samplesPerPixel;
     scene.referenceSeconds = reference->seconds;
     scene.referenceNoise = relativeNoise(*reference);
-    for (const auto& [layer, floor] : {std::pair(&reference->picture.color, &scene.noiseFloor),
-                                       std::pair(&reference->picture.indirect, &scene.indirectNoiseFloor)}) {
-        const auto score = noiseScore(*layer, reference->standardError, settings.seed, setup.exposure);
-        if (!score) return tl::unexpected(score.error());
-        *floor = *score;
-    }
+    const Picture& truth = reference->picture;
+    const auto whole = noiseScore(truth.color, reference->standardError, settings.seed, setup.exposure);
+    if (!whole) return tl::unexpected(whole.error());
+    scene.noiseFloor = *whole;
+    HdrImage indirectError = reference->standardError;
+    for (std::size_t i = 0; i < indirectError.pixels.size(); ++i)
+        indirectError.pixels[i] = glm::min(indirectError.pixels[i], truth.indirect.pixels[i]);
+    const auto indirect = noiseScore(truth.indirect, indirectError, settings.seed, setup.exposure);
+    if (!indirect) return tl::unexpected(indirect.error());
+    scene.indirectNoiseFloor = *indirect;
     scene.reference = std::move(reference->picture);
     return {};
 }

@@ -66,7 +66,8 @@ struct RenderedScene {
     double referenceSeconds = 0;
     double referenceNoise = 0;   ///< mean standard error over mean value of the picture
     ImageDifference noiseFloor;  ///< what an exact picture would score against this reference, for its noise
-    /// The same of the indirect light alone, as if all the noise were its: that of direct light is a small part.
+    /// The same of the indirect light alone, with all the noise up to the indirect light itself: what is above, at the
+    /// edges of lamps, is direct light's.
     ImageDifference indirectNoiseFloor;
     ProbeTruth truth;
 };

@@ -147,13 +147,13 @@ std::vector<std::string> gridWarnings(const LoadedSetup& setup) {
     const Overhang surfaces = overhang(setup.grid, setup.pose.bounds.lower, setup.pose.bounds.upper);
     if (surfaces.cells <= kHarmlessCells) return {};  // then nothing that a camera sees is outside
     std::vector<std::string> sentences{
-        fmt::format("the scene reaches {:.2g} m beyond its probe grid: surfaces there get the light "
+        fmt::format("the scene reaches {:.4g} m beyond its probe grid: surfaces there get the light "
                     "of the nearest probes; lay a grid over all of it with --probes",
                     surfaces.metres)};
     const Overhang camera = overhang(setup.grid, setup.camera.position, setup.camera.position);
     if (camera.cells > kHarmlessCells)
         sentences.push_back(
-            fmt::format("the camera stands {:.2g} m outside the probe grid, where no light is known", camera.metres));
+            fmt::format("the camera stands {:.4g} m outside the probe grid, where no light is known", camera.metres));
     return sentences;
 }
 
