@@ -15,6 +15,10 @@ struct ReferenceDesc {
     double relativeError = 0;  ///< stop when the mean standard error over the mean luminance is below; 0: no limit
     int maxBounces = 0;        ///< 0: unlimited (Russian roulette only)
     std::uint64_t seed = 1;
+    /// A converged field whose light guides the paths: they look where it says that light comes from. It shapes the
+    /// density of the samples only, so the expectation is the same whatever the field holds; a good one takes most of
+    /// the noise away where light arrives from small bright places. Null: unguided. It must outlive the call.
+    const Field* guide = nullptr;
 };
 
 /// A progressive estimate: the mean, and how sure it is.
@@ -22,7 +26,8 @@ struct ReferencePicture {
     Picture picture;          ///< layers as in Picture: `direct` and `indirect` split as the field splits them
     HdrImage standardError;   ///< of color, same units
     int samplesPerPixel = 0;  ///< done
-    double seconds = 0;
+    double seconds = 0;       ///< in all
+    double guideSeconds = 0;  ///< of these, to learn the guide; 0 without one
 };
 
 /// Mean and standard error of the irradiance at a point.
