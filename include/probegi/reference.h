@@ -51,9 +51,10 @@ public:
     Result<ReferencePicture> render(const ReferenceDesc& desc) const;
 
     /// E at each query point (toViewer is ignored), with `samples` paths a point. diffuseOnly as in PictureDesc.
-    /// Errors: invalidArgument, cancelled.
+    /// `guide` as in ReferenceDesc. Errors: invalidArgument, cancelled.
     Result<std::vector<ReferenceIrradiance>> irradiance(std::span<const FieldQuery> points, int samples,
-                                                        std::uint64_t seed = 1, bool diffuseOnly = true) const;
+                                                        std::uint64_t seed = 1, bool diffuseOnly = true,
+                                                        const Field* guide = nullptr) const;
 
     struct Impl;
 

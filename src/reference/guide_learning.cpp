@@ -15,7 +15,7 @@ namespace {
 
 /// Size of the voxels that lights are gathered in: a share of the probe spacing, and at least a share of the distance
 /// from which they are seen.
-constexpr float kVoxelShare = 0.5f, kVoxelAngle = 0.15f;
+constexpr float kVoxelShare = 0.25f, kVoxelAngle = 0.1f;
 /// Boxes reach a little beyond the lights that were met, and are never flat, as shares of the voxel.
 constexpr float kMargin = 0.08f, kThickness = 0.01f;
 /// Boxes that send less than this share of a region's light belong to its background.
@@ -40,7 +40,8 @@ Boxes gather(const GuideLessons& lessons, float spacing) {
     std::unordered_map<std::uint64_t, std::uint32_t> known;
     for (const GuideLight& light : lessons.lights) {
         const float base = kVoxelShare * spacing;
-        const int level = std::clamp(int(std::ceil(std::log2(std::max(kVoxelAngle * light.distance / base, 1.0f)))), 0, 15);
+        const int level =
+            std::clamp(int(std::ceil(std::log2(std::max(kVoxelAngle * light.distance / base, 1.0f)))), 0, 15);
         const float voxel = std::ldexp(base, level);
         const auto part = [&](float x) {
             return std::uint64_t(std::int64_t(std::clamp(std::floor(x / voxel), -131072.0f, 131071.0f)) + 131072);
@@ -99,7 +100,9 @@ RegionBoxes strongest(const GuideLessons& lessons, const Boxes& boxes, const Cla
     float background = 0;
     for (std::size_t r = in.begin; r < in.end; ++r) background += lessons.background[r];
     total += background;
-    std::sort(sent.begin(), sent.end(), [](const auto& a, const auto& b) { return a.first > b.first || (a.first == b.first && a.second < b.second); });
+    std::sort(sent.begin(), sent.end(), [](const auto& a, const auto& b) {
+        return a.first > b.first || (a.first == b.first && a.second < b.second);
+    });
 
     RegionBoxes out;
     const float perRay = 1.0f / (float(in.end - in.begin) * float(GuideLessons::kRaysPerReceiver));
@@ -146,7 +149,8 @@ float varianceShare(const GuideLessons& lessons, const PathGuide& guide, const C
             const float cosine = std::max(glm::dot(direction, receiver.normal), 1e-4f);
             float density = 1 - mixture.share;
             if (mixture.share > 0)
-                density += mixture.share * PathGuide::pdf(mixture, receiver.position, direction) * kernels::kPi / cosine;
+                density +=
+                    mixture.share * PathGuide::pdf(mixture, receiver.position, direction) * kernels::kPi / cosine;
             sum += double(l.radiance);
             plain += double(l.radiance) * double(l.radiance);
             guided += double(l.radiance) * double(l.radiance) / double(density);
@@ -161,7 +165,8 @@ std::vector<Class> classes(const GuideLessons& lessons) {
     std::vector<Class> out;
     std::size_t light = 0;
     for (std::size_t begin = 0, end; begin < lessons.receivers.size(); begin = end) {
-        for (end = begin; end < lessons.receivers.size() && lessons.receivers[end].region == lessons.receivers[begin].region;)
+        for (end = begin;
+             end < lessons.receivers.size() && lessons.receivers[end].region == lessons.receivers[begin].region;)
             ++end;
         const std::size_t first = light;
         while (light < lessons.lights.size() && lessons.lights[light].receiver < end) ++light;

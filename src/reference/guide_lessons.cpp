@@ -15,13 +15,13 @@ namespace {
 
 /// Reflections after the first surface whose receivers are learned from as well.
 constexpr int kGenerations = 2;
-constexpr std::size_t kReceiversPerRegion = 6;
+constexpr std::size_t kReceiversPerRegion = 16;
 /// Regions met less often are left alone: what they would gain is not worth the rays.
 constexpr std::size_t kMinVisits = 2;
 /// About so many receivers in all; the regions that most paths meet come first.
-constexpr std::size_t kMaxReceivers = 12288;
+constexpr std::size_t kMaxReceivers = 8192;
 /// Receivers whose rays are in memory at once, and in one task.
-constexpr std::size_t kBlock = 512, kGrain = 8;
+constexpr std::size_t kBlock = 256, kGrain = 8;
 constexpr int kSide = GuideLessons::kRaysPerSide, kRays = GuideLessons::kRaysPerReceiver;
 
 Ray rayFrom(const GuideReceiver& receiver, glm::vec2 u, float magnitude) {
@@ -132,11 +132,10 @@ void look(const Context& context, const Transport& transport, std::span<const Gu
         transport.tracer->surfaces(part(views.rays), part(views.hits), part(views.surfaces));
         addPunctual(transport, begin, end, views);
         for (std::size_t i = begin; i < end; ++i)
-            views.queries[i] = views.hits[i].valid()
-                                   ? FieldQuery{views.surfaces[i].position, views.surfaces[i].shadingNormal,
-                                                -views.rays[i].direction}
-                                   : FieldQuery{views.rays[i].origin, -views.rays[i].direction,
-                                                -views.rays[i].direction};
+            views.queries[i] =
+                views.hits[i].valid()
+                    ? FieldQuery{views.surfaces[i].position, views.surfaces[i].shadingNormal, -views.rays[i].direction}
+                    : FieldQuery{views.rays[i].origin, -views.rays[i].direction, -views.rays[i].direction};
     });
 }
 
@@ -218,7 +217,8 @@ Result<GuideLessons> takeLessons(const Context& context, const Transport& transp
         first = nextGeneration(transport, first, seed + std::uint64_t(generation));
         all.insert(all.end(), first.begin(), first.end());
     }
-    for (GuideReceiver& receiver : all) receiver.region = std::uint32_t(guide.regionOf(receiver.position, receiver.normal));
+    for (GuideReceiver& receiver : all)
+        receiver.region = std::uint32_t(guide.regionOf(receiver.position, receiver.normal));
 
     GuideLessons lessons;
     lessons.receivers = choose(std::move(all));

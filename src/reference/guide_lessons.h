@@ -29,7 +29,7 @@ struct GuideLight {
 
 /// What the receivers saw along their rays: kRaysPerReceiver each, spread by the cosine.
 struct GuideLessons {
-    static constexpr int kRaysPerSide = 12;
+    static constexpr int kRaysPerSide = 16;
     static constexpr int kRaysPerReceiver = kRaysPerSide * kRaysPerSide;
 
     std::vector<GuideReceiver> receivers;  ///< by region

@@ -1,6 +1,7 @@
 #include "reference/path_batch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "surface/lighting.h"
@@ -187,6 +188,14 @@ PathBatch::Response PathBatch::response(const Path& path, const Vertex& vertex, 
     return {path.firstColor * arriving, path.firstIrradiance * arriving};
 }
 
+/// What the rest of a path is worth. Guided, one that was led to a bright place has brought home the most of it with
+/// the light that it met there: its own weight, that of the first direction included, says what is left. The root of it
+/// was measured better than the weight itself, which ends too many paths in rooms of many bounces.
+float PathBatch::survivalOf(const Path& path) const {
+    const float weight = maxComponent(path.throughput);
+    return m_settings.guide ? std::sqrt(path.firstIrradiance / kernels::kPi * weight) : weight;
+}
+
 /// Continues the path in a direction sampled from the BSDF. False: absorbed.
 bool PathBatch::scatter(Path& path, const Vertex& vertex, Ray& ray) {
     const glm::vec2 u = path.random.nextPair();
@@ -214,8 +223,8 @@ bool PathBatch::scatter(Path& path, const Vertex& vertex, Ray& ray) {
     path.pdf = pdf;
     if (!m_transport.sky.black()) path.pdfSky = m_transport.sky.pdf(vertex.frame[2], direction);
     ++path.reflections;
-    if (path.reflections > kRouletteStart) {
-        const float survival = std::min(kMaxSurvival, maxComponent(path.throughput));
+    if (path.reflections > (m_settings.guide ? kGuidedRouletteStart : kRouletteStart)) {
+        const float survival = std::min(kMaxSurvival, survivalOf(path));
         if (!(choices.y < survival)) return false;
         path.throughput /= survival;
     }

@@ -19,6 +19,7 @@ namespace probegi {
 class PathBatch {
 public:
     static constexpr int kRouletteStart = 3;
+    static constexpr int kGuidedRouletteStart = 1;  ///< with a guide
     static constexpr float kMaxSurvival = 0.99f;
     static constexpr int kMaxReflections = 4096;
     /// Up to so many punctual lights get a shadow ray each; of more, one is chosen by what it would contribute.
@@ -88,6 +89,7 @@ private:
     void sampleEmitters(Path& path, const Vertex& vertex);
     void sampleSky(Path& path, const Vertex& vertex);
     bool scatter(Path& path, const Vertex& vertex, Ray& ray);
+    float survivalOf(const Path& path) const;
     void follow(const PathGuide& guide, Vertex& vertex) const;
     float pdfScatter(const Vertex& vertex, glm::vec3 local, glm::vec3 direction) const;
     void resolveShadows();

@@ -115,8 +115,8 @@ float PathGuide::pdf(const Mixture& mixture, glm::vec3 p, glm::vec3 direction) n
             const float x0 = (block.lower[0][i] - p.x) * ix, x1 = (block.upper[0][i] - p.x) * ix;
             const float y0 = (block.lower[1][i] - p.y) * iy, y1 = (block.upper[1][i] - p.y) * iy;
             const float z0 = (block.lower[2][i] - p.z) * iz, z1 = (block.upper[2][i] - p.z) * iz;
-            const float enter = std::max(std::max(std::min(x0, x1), std::min(y0, y1)),
-                                         std::max(std::min(z0, z1), 0.0f));
+            const float enter =
+                std::max(std::max(std::min(x0, x1), std::min(y0, y1)), std::max(std::min(z0, z1), 0.0f));
             const float leave = std::min(std::min(std::max(x0, x1), std::max(y0, y1)), std::max(z0, z1));
             const float length = std::max(leave - enter, 0.0f);
             const float volume = (block.upper[0][i] - block.lower[0][i]) * (block.upper[1][i] - block.lower[1][i]) *

@@ -16,7 +16,7 @@ namespace probegi {
 class PathGuide {
 public:
     static constexpr int kLanes = 8;  ///< boxes that are looked at abreast
-    static constexpr int kMaxBlocks = 4;
+    static constexpr int kMaxBlocks = 8;
     static constexpr int kMaxBoxes = kLanes * kMaxBlocks;  ///< of one region
     static constexpr int kFacings = 6;                     ///< regions apart by the axis that a receiver faces
     static constexpr int kCellsPerSpacing = 1;
@@ -40,9 +40,9 @@ public:
     /// What the guide says at one point: the boxes, each as bright as it looks from there.
     struct Mixture {
         const Block* blocks = nullptr;
-        int count = 0;     ///< of blocks
-        float share = 0;   ///< of the samples that should follow the boxes, 0..kMaxShare
-        float total = 0;   ///< of the weights
+        int count = 0;    ///< of blocks
+        float share = 0;  ///< of the samples that should follow the boxes, 0..kMaxShare
+        float total = 0;  ///< of the weights
         float weights[kMaxBoxes];
     };
 

@@ -129,6 +129,17 @@ Result<PathGuide> learnFromCamera(const Context& context, const Transport& trans
     return learnGuide(context, transport, *desc.guide, receiversSeen(transport, rays), desc.seed ^ kGuideSeed);
 }
 
+/// Learns from the points, each as often as it takes to have as many beginnings as a picture has.
+Result<PathGuide> learnFromPoints(const Context& context, const Transport& transport,
+                                  std::span<const FieldQuery> points, const Field& field, std::uint64_t seed) {
+    std::vector<GuideReceiver> first;
+    for (std::size_t i = 0; i < kGuideRays && !points.empty(); ++i) {
+        const FieldQuery& point = points[i % points.size()];
+        first.push_back({point.position, point.normal, point.normal, 0});
+    }
+    return learnGuide(context, transport, field, std::move(first), seed ^ kGuideSeed);
+}
+
 Result<void> checkDesc(const ReferenceDesc& desc) {
     const auto bad = [](const std::string& sentence) { return fail(ErrorCode::invalidArgument, sentence); };
     const PictureDesc& picture = desc.picture;
@@ -155,9 +166,8 @@ Result<ReferencePicture> renderPasses(const Context& context, const Transport& t
         guide = std::move(*learned);
     }
     const double guideSeconds = desc.guide ? rules.seconds() : 0;
-    const PathSettings settings{.diffuseOnly = desc.picture.diffuseOnly,
-                                .maxBounces = desc.maxBounces,
-                                .guide = guide ? &*guide : nullptr};
+    const PathSettings settings{
+        .diffuseOnly = desc.picture.diffuseOnly, .maxBounces = desc.maxBounces, .guide = guide ? &*guide : nullptr};
     Progress progress(context, "path tracing", 1);
     int samples = 0;
     while (!rules.done(samples, film)) {
@@ -208,11 +218,19 @@ Result<ReferencePicture> PathTracer::render(const ReferenceDesc& desc) const try
 }
 
 Result<std::vector<ReferenceIrradiance>> PathTracer::irradiance(std::span<const FieldQuery> points, int samples,
-                                                                std::uint64_t seed, bool diffuseOnly) const try {
+                                                                std::uint64_t seed, bool diffuseOnly,
+                                                                const Field* guide) const try {
     if (samples < 1)
         return fail(ErrorCode::invalidArgument,
                     fmt::format("samples is {}; the reference irradiance needs at least 1.", samples));
-    return estimateIrradiance(m_impl->context, m_impl->transport, {diffuseOnly}, points, samples, seed);
+    std::optional<PathGuide> learned;
+    if (guide) {
+        auto lessons = learnFromPoints(m_impl->context, m_impl->transport, points, *guide, seed);
+        if (!lessons) return tl::unexpected(lessons.error());
+        learned = std::move(*lessons);
+    }
+    const PathSettings settings{.diffuseOnly = diffuseOnly, .guide = learned ? &*learned : nullptr};
+    return estimateIrradiance(m_impl->context, m_impl->transport, settings, points, samples, seed);
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, "There is not enough memory for the reference irradiance; ask in parts.");
 }
