@@ -94,9 +94,10 @@ Result<void> judge(MethodResult& method, const Picture& reference, const ToneMap
     return {};
 }
 
-/// The field with and without its leak guard. The second run starts from the first one's light, which it forgets.
-Result<void> drawFields(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
-                        const ReportSettings& settings, RenderedScene& scene) {
+/// The field with and without its leak guard. The second run starts from the first one's light, which it forgets. The
+/// field comes back for whoever wants to be guided by it.
+Result<Field> drawFields(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
+                         const ReportSettings& settings, RenderedScene& scene) {
     FieldDesc desc;
     desc.grid = setup.grid;
     desc.raysPerProbe = settings.raysPerProbe;
@@ -114,13 +115,15 @@ Result<void> drawFields(const Backend& backend, const Tracer& tracer, const Load
         method = std::move(*drawn);
         return {};
     };
-    if (auto done = run(LeakGuard::moments, scene.ddgiField, scene.ddgi); !done) return done;
-    return run(LeakGuard::none, scene.leakyField, scene.leaky);
+    if (auto done = run(LeakGuard::moments, scene.ddgiField, scene.ddgi); !done) return tl::unexpected(done.error());
+    if (auto done = run(LeakGuard::none, scene.leakyField, scene.leaky); !done) return tl::unexpected(done.error());
+    return std::move(*field);
 }
 
 Result<void> drawReference(const PathTracer& pathTracer, const LoadedSetup& setup, const ReportSettings& settings,
-                           RenderedScene& scene) {
+                           const Field& guide, RenderedScene& scene) {
     ReferenceDesc desc;
+    desc.guide = &guide;
     desc.picture = pictureDesc(setup, settings);
     desc.seconds = settings.seconds;
     desc.samplesPerPixel = settings.samplesPerPixel;
@@ -166,8 +169,10 @@ Result<RenderedScene> renderForReport(const Context& context, const Backend& bac
     auto none = drawMethod(backend, drawing, setup, settings, nullptr);
     if (!none) return tl::unexpected(none.error());
     scene.none = std::move(*none);
-    if (auto done = drawFields(backend, drawing, setup, settings, scene); !done) return tl::unexpected(done.error());
-    if (auto done = drawReference(*pathTracer, setup, settings, scene); !done) return tl::unexpected(done.error());
+    const auto field = drawFields(backend, drawing, setup, settings, scene);
+    if (!field) return tl::unexpected(field.error());
+    if (auto done = drawReference(*pathTracer, setup, settings, *field, scene); !done)
+        return tl::unexpected(done.error());
     for (MethodResult* method : {&scene.none, &scene.leaky, &scene.ddgi})
         if (auto done = judge(*method, scene.reference, {setup.exposure, false}); !done)
             return tl::unexpected(done.error());
