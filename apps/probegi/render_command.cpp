@@ -38,6 +38,7 @@ struct RenderOptions {
     FieldRunOptions run;
     std::optional<int> samplesPerPixel;
     std::optional<double> seconds;
+    bool guide = false;
 };
 
 const char* const kFooter =
@@ -58,7 +59,7 @@ PictureDesc pictureDesc(const RenderOptions& options, const LoadedSetup& setup) 
 
 Result<std::optional<Field>> makeField(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
                                        const RenderOptions& options, RenderStats& stats) {
-    if (options.method == Method::none) return std::nullopt;
+    if (options.method == Method::none || (options.method == Method::reference && !options.guide)) return std::nullopt;
     FieldDesc desc;
     desc.grid = setup.grid;
     desc.raysPerProbe = options.rays;
@@ -86,8 +87,10 @@ Result<Picture> renderWithField(const Context&, const Backend& backend, const Tr
     return std::move(rendered->picture);
 }
 
-Result<Picture> renderReference(const Context& context, const Backend&, const Tracer& tracer, const LoadedSetup& setup,
-                                const RenderOptions& options, RenderStats& stats) {
+Result<Picture> renderReference(const Context& context, const Backend& backend, const Tracer& tracer,
+                                const LoadedSetup& setup, const RenderOptions& options, RenderStats& stats) {
+    const auto field = makeField(backend, tracer, setup, options, stats);
+    if (!field) return tl::unexpected(field.error());
     const auto pathTracer = PathTracer::create(context, *setup.scene, setup.pose, tracer, setup.lighting);
     if (!pathTracer) return tl::unexpected(pathTracer.error());
     ReferenceDesc desc;
@@ -95,6 +98,7 @@ Result<Picture> renderReference(const Context& context, const Backend&, const Tr
     desc.seconds = options.seconds.value_or(0);
     desc.samplesPerPixel = options.samplesPerPixel.value_or(options.seconds ? 0 : kDefaultReferenceSamples);
     desc.seed = options.seed;
+    desc.guide = *field ? &**field : nullptr;
     auto rendered = pathTracer->render(desc);
     if (!rendered) return tl::unexpected(rendered.error());
     stats.pictureMs = rendered->seconds * 1000;
@@ -103,12 +107,12 @@ Result<Picture> renderReference(const Context& context, const Backend&, const Tr
 
 void warnAboutUnusedOptions(const RenderOptions& options) {
     const bool reference = options.method == Method::reference;
-    if (!reference && (options.samplesPerPixel || options.seconds))
-        printWarning("--spp and --time act on --method reference only");
-    if ((reference || options.method == Method::none) && (options.run.frames || options.run.tolerance))
-        printWarning("--frames and --tolerance act on --method ddgi and leaky only");
-    if ((reference || options.method == Method::none) && options.rules == FieldRules::paper)
-        printWarning("--rules acts on --method ddgi and leaky only");
+    if (!reference && (options.samplesPerPixel || options.seconds || options.guide))
+        printWarning("--spp, --time and --guide act on --method reference only");
+    const bool probes = options.method != Method::none && (!reference || options.guide);
+    if (!probes && (options.run.frames || options.run.tolerance))
+        printWarning("--frames and --tolerance act on --method ddgi and leaky, and on --guide on, only");
+    if (!probes && options.rules == FieldRules::paper) printWarning("--rules acts on --method ddgi and leaky only");
 }
 
 void checkOptions(const CLI::App& command, const RenderOptions& options) {
@@ -191,6 +195,13 @@ void addMethodOptions(CLI::App& command, RenderOptions& options) {
     command.add_option("--time", options.seconds, "reference: stop after so many seconds")
         ->type_name("SECONDS")
         ->check(inRange(0.001, 1e6));
+    static const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
+    command
+        .add_option("--guide", options.guide,
+                    "reference: converged probes tell paths where light comes from; the picture is the same but for "
+                    "its noise (default off: making the probes takes its time too)")
+        ->type_name("on|off")
+        ->transform(oneOf(kOnOff));
     command.add_option("--seed", options.seed, "another number, other noise; equal numbers, equal pictures")
         ->type_name("N")
         ->check(wholeNumber())

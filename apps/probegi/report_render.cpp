@@ -107,31 +107,33 @@ FieldDesc fieldDesc(const LoadedSetup& setup, const ReportSettings& settings) {
     return desc;
 }
 
-/// The field with and without its leak guard. The second run starts from the first one's light, which it forgets.
-Result<void> drawFields(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
-                        const ReportSettings& settings, RenderedScene& scene) {
+/// The field without and with its leak guard. The second run starts from the first one's light, which it forgets. The
+/// field comes back for whoever wants to be guided by it.
+Result<Field> drawFields(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
+                         const ReportSettings& settings, RenderedScene& scene) {
     auto field = backend.makeField(fieldDesc(setup, settings));
     if (!field) return tl::unexpected(field.error());
-    for (const auto& [guard, result, method] : {std::tuple(LeakGuard::moments, &scene.ddgiField, &scene.ddgi),
-                                                std::tuple(LeakGuard::none, &scene.leakyField, &scene.leaky)}) {
+    for (const auto& [guard, result, method] : {std::tuple(LeakGuard::none, &scene.leakyField, &scene.leaky),
+                                                std::tuple(LeakGuard::moments, &scene.ddgiField, &scene.ddgi)}) {
         field->setGuard(guard);
         auto drawn = drawField(backend, tracer, setup, settings, scene.truth, *field, settings.run);
         if (!drawn) return tl::unexpected(drawn.error());
         *result = std::move(drawn->field);
         *method = std::move(drawn->method);
     }
-    if (!settings.realtimeUpdates) return {};
+    if (!settings.realtimeUpdates) return std::move(*field);
     auto fresh = backend.makeField(fieldDesc(setup, settings));
     if (!fresh) return tl::unexpected(fresh.error());
     auto drawn = drawField(backend, tracer, setup, settings, scene.truth, *fresh, {settings.realtimeUpdates, {}});
     if (!drawn) return tl::unexpected(drawn.error());
     scene.realtime = std::move(*drawn);
-    return {};
+    return std::move(*field);
 }
 
 Result<void> drawReference(const PathTracer& pathTracer, const LoadedSetup& setup, const ReportSettings& settings,
-                           RenderedScene& scene) {
+                           const Field& guide, RenderedScene& scene) {
     ReferenceDesc desc;
+    desc.guide = &guide;
     desc.picture = pictureDesc(setup, settings);
     desc.seconds = settings.seconds;
     desc.samplesPerPixel = settings.samplesPerPixel;
@@ -184,8 +186,10 @@ Result<RenderedScene> renderForReport(const Context& context, const Backend& bac
     auto none = drawMethod(backend, drawing, setup, settings, nullptr);
     if (!none) return tl::unexpected(none.error());
     scene.none = std::move(*none);
-    if (auto done = drawFields(backend, drawing, setup, settings, scene); !done) return tl::unexpected(done.error());
-    if (auto done = drawReference(*pathTracer, setup, settings, scene); !done) return tl::unexpected(done.error());
+    const auto field = drawFields(backend, drawing, setup, settings, scene);
+    if (!field) return tl::unexpected(field.error());
+    if (auto done = drawReference(*pathTracer, setup, settings, *field, scene); !done)
+        return tl::unexpected(done.error());
     std::vector<MethodResult*> methods{&scene.none, &scene.leaky, &scene.ddgi};
     if (scene.realtime) methods.push_back(&scene.realtime->method);
     for (MethodResult* method : methods)

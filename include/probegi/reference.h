@@ -15,6 +15,10 @@ struct ReferenceDesc {
     double relativeError = 0;  ///< stop when the mean standard error over the mean luminance is below; 0: no limit
     int maxBounces = 0;        ///< 0: unlimited (Russian roulette only)
     std::uint64_t seed = 1;
+    /// A converged field whose light guides the paths: they look where it says that light comes from. It shapes the
+    /// density of the samples only, so the expectation is the same whatever the field holds; a good one takes most of
+    /// the noise away where light arrives from small bright places. Null: unguided. It must outlive the call.
+    const Field* guide = nullptr;
 };
 
 /// A progressive estimate: the mean, and how sure it is.
@@ -22,7 +26,8 @@ struct ReferencePicture {
     Picture picture;          ///< layers as in Picture: `direct` and `indirect` split as the field splits them
     HdrImage standardError;   ///< of color, same units
     int samplesPerPixel = 0;  ///< done
-    double seconds = 0;
+    double seconds = 0;       ///< in all
+    double guideSeconds = 0;  ///< of these, to learn the guide; 0 without one
 };
 
 /// Mean and standard error of the irradiance at a point.
@@ -46,9 +51,10 @@ public:
     Result<ReferencePicture> render(const ReferenceDesc& desc) const;
 
     /// E at each query point (toViewer is ignored), with `samples` paths a point. diffuseOnly as in PictureDesc.
-    /// Errors: invalidArgument, cancelled.
+    /// `guide` as in ReferenceDesc. Errors: invalidArgument, cancelled.
     Result<std::vector<ReferenceIrradiance>> irradiance(std::span<const FieldQuery> points, int samples,
-                                                        std::uint64_t seed = 1, bool diffuseOnly = true) const;
+                                                        std::uint64_t seed = 1, bool diffuseOnly = true,
+                                                        const Field* guide = nullptr) const;
 
     struct Impl;
 

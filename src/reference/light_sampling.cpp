@@ -78,7 +78,7 @@ void PathBatch::sampleEmitters(Path& path, const Vertex& vertex) {
 
     const glm::vec3 local = kernels::toLocal(vertex.frame, direction);
     const float pdfLight = emitters.pdfArea(sample.material) * squared / std::abs(facing);
-    const float pdfBsdf = kernels::pdfBsdf(vertex.bsdf, vertex.toPrevious, local);
+    const float pdfBsdf = pdfScatter(vertex, local, direction);
     const float weight = lightSampleWeight(pdfLight, pdfBsdf) / pdfLight;
     const Response r = response(path, vertex, local);
     Pending pending{.result = path.result, .material = sample.material, .distance = distance};
@@ -105,7 +105,7 @@ void PathBatch::sampleSky(Path& path, const Vertex& vertex) {
     const float pdfLight = m_transport.sky.pdf(vertex.frame[2], direction);
     if (!(pdfLight > 0)) return;
     const glm::vec3 local = kernels::toLocal(vertex.frame, direction);
-    const float pdfBsdf = kernels::pdfBsdf(vertex.bsdf, vertex.toPrevious, local);
+    const float pdfBsdf = pdfScatter(vertex, local, direction);
     const glm::vec3 radiance = m_transport.sky.radiance(direction) * (lightSampleWeight(pdfLight, pdfBsdf) / pdfLight);
     const Response r = response(path, vertex, local);
     Pending pending{.result = path.result};

@@ -1,6 +1,7 @@
 #include "reference/path_batch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "surface/lighting.h"
@@ -48,8 +49,13 @@ void PathBatch::fromPoints(std::span<const FieldQuery> points, std::span<const R
     m_lookUpRays.clear();
     for (std::size_t i = 0; i < points.size(); ++i) {
         Path path{.random = random[i], .result = std::uint32_t(i)};
-        const Vertex vertex{points[i].position, points[i].normal, kernels::orthonormalBasis(points[i].normal),
-                            glm::vec3(0, 0, 1), kernels::makeBsdf(glm::vec3(1.0f), 0.0f, 1.0f, true)};
+        Vertex vertex;
+        vertex.position = points[i].position;
+        vertex.geometricNormal = points[i].normal;
+        vertex.frame = kernels::orthonormalBasis(points[i].normal);
+        vertex.toPrevious = glm::vec3(0, 0, 1);
+        vertex.bsdf = kernels::makeBsdf(glm::vec3(1.0f), 0.0f, 1.0f, true);
+        if (m_settings.guide) follow(*m_settings.guide, vertex);
         sampleLights(path, vertex);
         Ray ray;
         if (!scatter(path, vertex, ray)) continue;
@@ -125,7 +131,7 @@ void PathBatch::addSky(const Path& path, const Ray& ray) {
         m_results[path.result].sky = radiance;
         return;
     }
-    const float weight = bsdfSampleWeight(path.pdf, m_transport.sky.pdf(path.normal, ray.direction));
+    const float weight = bsdfSampleWeight(path.pdf, path.pdfSky);
     const glm::vec3 arriving = path.throughput * radiance * weight;
     addTo(path.result, Layer::indirect, path.firstColor * arriving, path.firstIrradiance * arriving);
 }
@@ -146,14 +152,32 @@ void PathBatch::addEmission(const Path& path, const Ray& ray, const Hit& hit, co
 PathBatch::Vertex PathBatch::makeVertex(const Ray& ray, const Surface& surface, bool first) const {
     // A shading normal that faces away from the viewer would show the inside of the material.
     const bool usable = glm::dot(surface.shadingNormal, ray.direction) < -1e-4f;
-    Vertex v{surface.position, surface.geometricNormal,
-             kernels::orthonormalBasis(usable ? surface.shadingNormal : surface.geometricNormal), glm::vec3(0.0f),
-             kernels::makeBsdf(surface.albedo, surface.metallic, surface.roughness, m_settings.diffuseOnly)};
+    Vertex v;
+    v.position = surface.position;
+    v.geometricNormal = surface.geometricNormal;
+    v.frame = kernels::orthonormalBasis(usable ? surface.shadingNormal : surface.geometricNormal);
+    v.bsdf = kernels::makeBsdf(surface.albedo, surface.metallic, surface.roughness, m_settings.diffuseOnly);
     v.toPrevious = kernels::toLocal(v.frame, -ray.direction);
     v.toPrevious.z = std::max(v.toPrevious.z, 1e-4f);
     // The irradiance of the first surface needs the whole hemisphere, however mirror-like the material is.
     if (first) v.bsdf.minDiffuse = std::max(v.bsdf.minDiffuse, 0.25f);
+    if (m_settings.guide) follow(*m_settings.guide, v);
     return v;
+}
+
+/// The guide takes its share from the cosine lobe only: a coat knows better where it looks.
+void PathBatch::follow(const PathGuide& guide, Vertex& vertex) const {
+    guide.mixtureAt(vertex.position, vertex.frame[2], vertex.mixture);
+    if (vertex.mixture.share > 0)
+        vertex.guideShare = vertex.mixture.share * kernels::diffuseProbability(vertex.bsdf, vertex.toPrevious);
+}
+
+/// Density per steradian with which scatter() chooses a direction.
+float PathBatch::pdfScatter(const Vertex& vertex, glm::vec3 local, glm::vec3 direction) const {
+    const float pdf = kernels::pdfBsdf(vertex.bsdf, vertex.toPrevious, local);
+    if (!(vertex.guideShare > 0) || !(local.z > 0)) return pdf;
+    return (1 - vertex.guideShare) * pdf +
+           vertex.guideShare * PathGuide::pdf(vertex.mixture, vertex.position, direction);
 }
 
 /// `direction` is in the vertex' frame.
@@ -164,15 +188,30 @@ PathBatch::Response PathBatch::response(const Path& path, const Vertex& vertex, 
     return {path.firstColor * arriving, path.firstIrradiance * arriving};
 }
 
+/// What the rest of a path is worth. Guided, one that was led to a bright place has brought home the most of it with
+/// the light that it met there: its own weight, that of the first direction included, says what is left. The root of it
+/// was measured better than the weight itself, which ends too many paths in rooms of many bounces.
+float PathBatch::survivalOf(const Path& path) const {
+    const float weight = maxComponent(path.throughput);
+    return m_settings.guide ? std::sqrt(path.firstIrradiance / kernels::kPi * weight) : weight;
+}
+
 /// Continues the path in a direction sampled from the BSDF. False: absorbed.
 bool PathBatch::scatter(Path& path, const Vertex& vertex, Ray& ray) {
     const glm::vec2 u = path.random.nextPair();
     const glm::vec2 choices = path.random.nextPair();
-    const glm::vec3 local = kernels::sampleBsdf(vertex.bsdf, vertex.toPrevious, u, choices.x);
+    glm::vec3 local, direction;
+    if (choices.x < vertex.guideShare) {
+        direction = PathGuide::sample(vertex.mixture, vertex.position, choices.x / vertex.guideShare, path.random);
+        local = kernels::toLocal(vertex.frame, direction);
+    } else {
+        const float lobe = (choices.x - vertex.guideShare) / (1 - vertex.guideShare);
+        local = kernels::sampleBsdf(vertex.bsdf, vertex.toPrevious, u, lobe);
+        direction = glm::normalize(kernels::toWorld(vertex.frame, local));
+    }
     if (!(local.z > 0)) return false;
-    const glm::vec3 direction = glm::normalize(kernels::toWorld(vertex.frame, local));
     if (!(glm::dot(vertex.geometricNormal, direction) > 0)) return false;
-    const float pdf = kernels::pdfBsdf(vertex.bsdf, vertex.toPrevious, local);
+    const float pdf = pdfScatter(vertex, local, direction);
     if (!(pdf > 0)) return false;
     const glm::vec3 f = kernels::evalBsdf(vertex.bsdf, vertex.toPrevious, local) / pdf;
     if (path.reflections == 0) {
@@ -182,10 +221,10 @@ bool PathBatch::scatter(Path& path, const Vertex& vertex, Ray& ray) {
         path.throughput *= f;
     }
     path.pdf = pdf;
-    path.normal = vertex.frame[2];
+    if (!m_transport.sky.black()) path.pdfSky = m_transport.sky.pdf(vertex.frame[2], direction);
     ++path.reflections;
-    if (path.reflections > kRouletteStart) {
-        const float survival = std::min(kMaxSurvival, maxComponent(path.throughput));
+    if (path.reflections > (m_settings.guide ? kGuidedRouletteStart : kRouletteStart)) {
+        const float survival = std::min(kMaxSurvival, survivalOf(path));
         if (!(choices.y < survival)) return false;
         path.throughput /= survival;
     }

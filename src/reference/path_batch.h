@@ -19,6 +19,7 @@ namespace probegi {
 class PathBatch {
 public:
     static constexpr int kRouletteStart = 3;
+    static constexpr int kGuidedRouletteStart = 1;  ///< with a guide
     static constexpr float kMaxSurvival = 0.99f;
     static constexpr int kMaxReflections = 4096;
     /// Up to so many punctual lights get a shadow ray each; of more, one is chosen by what it would contribute.
@@ -39,7 +40,7 @@ private:
         glm::vec3 firstColor{0.0f};    ///< BSDF x cosine / density at the first vertex
         float firstIrradiance = 0.0f;  ///< cosine / density at the first vertex
         float pdf = 0.0f;              ///< density with which the current ray's direction was sampled
-        glm::vec3 normal{0.0f};        ///< shading normal where the current ray began
+        float pdfSky = 0.0f;           ///< density with which light sampling would have chosen it, if sky is seen there
         std::uint32_t result = 0;
         int reflections = 0;
     };
@@ -51,6 +52,8 @@ private:
         glm::mat3 frame;       ///< of the shading normal
         glm::vec3 toPrevious;  ///< in the frame
         kernels::Bsdf bsdf;
+        float guideShare = 0.0f;  ///< of the directions that follow `mixture`
+        PathGuide::Mixture mixture;
     };
 
     enum class Layer : std::uint8_t { direct, indirect };
@@ -86,6 +89,9 @@ private:
     void sampleEmitters(Path& path, const Vertex& vertex);
     void sampleSky(Path& path, const Vertex& vertex);
     bool scatter(Path& path, const Vertex& vertex, Ray& ray);
+    float survivalOf(const Path& path) const;
+    void follow(const PathGuide& guide, Vertex& vertex) const;
+    float pdfScatter(const Vertex& vertex, glm::vec3 local, glm::vec3 direction) const;
     void resolveShadows();
     void resolveLookUps();
     float lightSampleWeight(float pdfLight, float pdfBsdf) const;

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <new>
+#include <optional>
 
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "reference/film.h"
+#include "reference/guide_learning.h"
 #include "reference/irradiance_estimate.h"
 #include "reference/path_batch.h"
 #include "surface/lighting.h"
@@ -28,6 +30,9 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kPathsPerBatch = 1024;
 /// Samples a pixel between two looks at the stopping rules.
 constexpr int kMaxSamplesPerPass = 16;
+/// Camera rays that say where a guide is wanted; and what keeps their random numbers apart from the picture's.
+constexpr std::size_t kGuideRays = 16384;
+constexpr std::uint64_t kGuideSeed = 0x67756964696e67ull;
 /// Fewer samples say too little about their own error to stop by it.
 constexpr int kMinSamplesForError = 16;
 
@@ -96,8 +101,8 @@ private:
 };
 
 /// `count` more samples, from number `first` on, for the pixels begin..end.
-void tracePixels(const Transport& transport, const ReferenceDesc& desc, const PinholeCamera& camera, std::size_t begin,
-                 std::size_t end, int first, int count, Film& film) {
+void tracePixels(const Transport& transport, const ReferenceDesc& desc, const PathSettings& settings,
+                 const PinholeCamera& camera, std::size_t begin, std::size_t end, int first, int count, Film& film) {
     std::vector<Ray> rays;
     std::vector<Random> random;
     for (std::size_t pixel = begin; pixel < end; ++pixel)
@@ -107,8 +112,32 @@ void tracePixels(const Transport& transport, const ReferenceDesc& desc, const Pi
             random.push_back(stream);
         }
     std::vector<PathResult> results(rays.size());
-    PathBatch(transport, {desc.picture.diffuseOnly, desc.maxBounces}).fromCamera(rays, random, results);
+    PathBatch(transport, settings).fromCamera(rays, random, results);
     for (std::size_t i = 0; i < results.size(); ++i) film.add(begin + i / std::size_t(count), results[i]);
+}
+
+/// Learns from what the camera sees, on rays of their own through random pixels.
+Result<PathGuide> learnFromCamera(const Context& context, const Transport& transport, const ReferenceDesc& desc,
+                                  const PinholeCamera& camera) {
+    const std::size_t pixels = std::size_t(desc.picture.width) * std::size_t(desc.picture.height);
+    std::vector<Ray> rays;
+    for (std::size_t i = 0; i < kGuideRays; ++i) {
+        Random random(desc.seed ^ kGuideSeed, i);
+        const auto pixel = std::size_t((double(i) + random.nextDouble()) / double(kGuideRays) * double(pixels));
+        rays.push_back(camera.ray(std::min(pixel, pixels - 1), random.nextPair()));
+    }
+    return learnGuide(context, transport, *desc.guide, receiversSeen(transport, rays), desc.seed ^ kGuideSeed);
+}
+
+/// Learns from the points, each as often as it takes to have as many beginnings as a picture has.
+Result<PathGuide> learnFromPoints(const Context& context, const Transport& transport,
+                                  std::span<const FieldQuery> points, const Field& field, std::uint64_t seed) {
+    std::vector<GuideReceiver> first;
+    for (std::size_t i = 0; i < kGuideRays && !points.empty(); ++i) {
+        const FieldQuery& point = points[i % points.size()];
+        first.push_back({point.position, point.normal, point.normal, 0});
+    }
+    return learnGuide(context, transport, field, std::move(first), seed ^ kGuideSeed);
 }
 
 Result<void> checkDesc(const ReferenceDesc& desc) {
@@ -130,6 +159,15 @@ Result<ReferencePicture> renderPasses(const Context& context, const Transport& t
     const PinholeCamera camera(desc.picture);
     Film film(desc.picture.width, desc.picture.height);
     StoppingRules rules(desc);
+    std::optional<PathGuide> guide;
+    if (desc.guide) {
+        auto learned = learnFromCamera(context, transport, desc, camera);
+        if (!learned) return tl::unexpected(learned.error());
+        guide = std::move(*learned);
+    }
+    const double guideSeconds = desc.guide ? rules.seconds() : 0;
+    const PathSettings settings{
+        .diffuseOnly = desc.picture.diffuseOnly, .maxBounces = desc.maxBounces, .guide = guide ? &*guide : nullptr};
     Progress progress(context, "path tracing", 1);
     int samples = 0;
     while (!rules.done(samples, film)) {
@@ -138,7 +176,7 @@ Result<ReferencePicture> renderPasses(const Context& context, const Transport& t
         parallelFor(context, film.pixelCount(), std::max<std::size_t>(1, kPathsPerBatch / std::size_t(pass)),
                     [&](std::size_t begin, std::size_t end) {
                         if (progress.cancelled()) return;
-                        tracePixels(transport, desc, camera, begin, end, samples, pass, film);
+                        tracePixels(transport, desc, settings, camera, begin, end, samples, pass, film);
                         const auto done = double(pixelsDone += end - begin);
                         progress.set(rules.fraction(samples + pass * done / double(film.pixelCount())));
                     });
@@ -150,6 +188,7 @@ Result<ReferencePicture> renderPasses(const Context& context, const Transport& t
     ReferencePicture out = film.develop();
     out.samplesPerPixel = samples;
     out.seconds = rules.seconds();
+    out.guideSeconds = guideSeconds;
     return out;
 }
 
@@ -179,11 +218,19 @@ Result<ReferencePicture> PathTracer::render(const ReferenceDesc& desc) const try
 }
 
 Result<std::vector<ReferenceIrradiance>> PathTracer::irradiance(std::span<const FieldQuery> points, int samples,
-                                                                std::uint64_t seed, bool diffuseOnly) const try {
+                                                                std::uint64_t seed, bool diffuseOnly,
+                                                                const Field* guide) const try {
     if (samples < 1)
         return fail(ErrorCode::invalidArgument,
                     fmt::format("samples is {}; the reference irradiance needs at least 1.", samples));
-    return estimateIrradiance(m_impl->context, m_impl->transport, {diffuseOnly}, points, samples, seed);
+    std::optional<PathGuide> learned;
+    if (guide) {
+        auto lessons = learnFromPoints(m_impl->context, m_impl->transport, points, *guide, seed);
+        if (!lessons) return tl::unexpected(lessons.error());
+        learned = std::move(*lessons);
+    }
+    const PathSettings settings{.diffuseOnly = diffuseOnly, .guide = learned ? &*learned : nullptr};
+    return estimateIrradiance(m_impl->context, m_impl->transport, settings, points, samples, seed);
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, "There is not enough memory for the reference irradiance; ask in parts.");
 }

@@ -4,6 +4,7 @@
 
 #include "probegi/tracer.h"
 #include "reference/emitters.h"
+#include "reference/path_guide.h"
 #include "reference/sky_light.h"
 
 namespace probegi {
@@ -25,6 +26,7 @@ struct PathSettings {
     bool diffuseOnly = false;
     int maxBounces = 0;  ///< reflections between a light and the camera; 0: unlimited
     Strategy strategy = Strategy::both;
+    const PathGuide* guide = nullptr;  ///< where light comes from; null: paths follow the BSDF alone
 };
 
 /// What one path brings home, split as in Picture.

@@ -1,0 +1,203 @@
+#include "reference/guide_learning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <unordered_map>
+
+#include "core/parallel.h"
+#include "kernels/sampling.h"
+
+namespace probegi {
+
+namespace {
+
+/// Size of the voxels that lights are gathered in: a share of the probe spacing, and at least a share of the distance
+/// from which they are seen.
+constexpr float kVoxelShare = 0.25f, kVoxelAngle = 0.1f;
+/// Boxes reach a little beyond the lights that were met, and are never flat, as shares of the voxel.
+constexpr float kMargin = 0.08f, kThickness = 0.01f;
+/// Boxes that send less than this share of a region's light belong to its background.
+constexpr float kMinContribution = 0.004f;
+/// A region whose variance is not at least so much less with its boxes goes without.
+constexpr float kWorthwhile = 0.75f;
+
+struct Box {
+    glm::vec3 lower{1e30f}, upper{-1e30f};
+    float voxel = 0;
+};
+
+/// The boxes around all lights, and of each light which.
+struct Boxes {
+    std::vector<Box> boxes;
+    std::vector<std::uint32_t> ofLight;
+};
+
+Boxes gather(const GuideLessons& lessons, float spacing) {
+    Boxes out;
+    out.ofLight.reserve(lessons.lights.size());
+    std::unordered_map<std::uint64_t, std::uint32_t> known;
+    for (const GuideLight& light : lessons.lights) {
+        const float base = kVoxelShare * spacing;
+        const int level =
+            std::clamp(int(std::ceil(std::log2(std::max(kVoxelAngle * light.distance / base, 1.0f)))), 0, 15);
+        const float voxel = std::ldexp(base, level);
+        const auto part = [&](float x) {
+            return std::uint64_t(std::int64_t(std::clamp(std::floor(x / voxel), -131072.0f, 131071.0f)) + 131072);
+        };
+        const std::uint64_t key = part(light.position.x) | part(light.position.y) << 18 | part(light.position.z) << 36 |
+                                  std::uint64_t(level) << 54 | std::uint64_t(light.sky) << 58;
+        const auto [entry, fresh] = known.try_emplace(key, std::uint32_t(out.boxes.size()));
+        if (fresh) out.boxes.push_back({.voxel = voxel});
+        Box& box = out.boxes[entry->second];
+        box.lower = glm::min(box.lower, light.position);
+        box.upper = glm::max(box.upper, light.position);
+        out.ofLight.push_back(entry->second);
+    }
+    for (Box& box : out.boxes) {
+        const glm::vec3 size = box.upper - box.lower;
+        for (int axis = 0; axis < 3; ++axis) {
+            // Across a surface nothing is beyond the lights; along it the next one may be.
+            const float margin = box.voxel * (size[axis] < kThickness * box.voxel ? 0.5f * kThickness : kMargin);
+            box.lower[axis] -= margin;
+            box.upper[axis] += margin;
+        }
+    }
+    return out;
+}
+
+void setLane(PathGuide::Block& block, int lane, const Box& box, float strength) {
+    for (int axis = 0; axis < 3; ++axis) {
+        block.lower[axis][lane] = box.lower[axis];
+        block.upper[axis][lane] = box.upper[axis];
+    }
+    block.strength[lane] = strength;
+}
+
+/// One region's receivers begin..end, and their lights.
+struct Class {
+    std::size_t begin, end, firstLight, lastLight;
+};
+
+struct RegionBoxes {
+    std::vector<PathGuide::Block> blocks;
+    float background = 0;
+};
+
+/// The boxes that send a region the most light. A box is as strong as makes the light that it seems to send to the
+/// receivers what it did send, whatever hides part of it.
+RegionBoxes strongest(const GuideLessons& lessons, const Boxes& boxes, const Class& in) {
+    std::unordered_map<std::uint32_t, std::size_t> known;
+    std::vector<std::pair<float, std::uint32_t>> sent;
+    float total = 0;
+    for (std::size_t i = in.firstLight; i < in.lastLight; ++i) {
+        const auto [entry, fresh] = known.try_emplace(boxes.ofLight[i], sent.size());
+        if (fresh) sent.emplace_back(0.0f, boxes.ofLight[i]);
+        sent[entry->second].first += lessons.lights[i].radiance;
+        total += lessons.lights[i].radiance;
+    }
+    float background = 0;
+    for (std::size_t r = in.begin; r < in.end; ++r) background += lessons.background[r];
+    total += background;
+    std::sort(sent.begin(), sent.end(), [](const auto& a, const auto& b) {
+        return a.first > b.first || (a.first == b.first && a.second < b.second);
+    });
+
+    RegionBoxes out;
+    const float perRay = 1.0f / (float(in.end - in.begin) * float(GuideLessons::kRaysPerReceiver));
+    for (std::size_t i = 0; i < sent.size(); ++i) {
+        if (i >= std::size_t(PathGuide::kMaxBoxes) || sent[i].first < kMinContribution * total) {
+            background += sent[i].first;
+            continue;
+        }
+        const int lane = int(i) % PathGuide::kLanes;
+        if (lane == 0) {
+            PathGuide::Block& block = out.blocks.emplace_back();
+            for (int l = 0; l < PathGuide::kLanes; ++l) setLane(block, l, boxes.boxes[sent[i].second], 0.0f);
+        }
+        setLane(out.blocks.back(), lane, boxes.boxes[sent[i].second], sent[i].first * perRay);
+    }
+    for (PathGuide::Block& block : out.blocks) {
+        float seen[PathGuide::kLanes] = {};
+        for (std::size_t r = in.begin; r < in.end; ++r) {
+            float shares[PathGuide::kLanes];
+            PathGuide::seenShares(block, lessons.receivers[r].position, lessons.receivers[r].normal, shares);
+            for (int lane = 0; lane < PathGuide::kLanes; ++lane) seen[lane] += shares[lane] / float(in.end - in.begin);
+        }
+        for (int lane = 0; lane < PathGuide::kLanes; ++lane)
+            block.strength[lane] = seen[lane] > 1e-9f ? block.strength[lane] / seen[lane] : 0.0f;
+    }
+    out.background = background * perRay;
+    return out;
+}
+
+/// Variance of one sample with the region's boxes over that without, by the lights that were met.
+float varianceShare(const GuideLessons& lessons, const PathGuide& guide, const Class& in) {
+    double sum = 0, plain = 0, guided = 0;
+    std::size_t light = in.firstLight;
+    PathGuide::Mixture mixture;
+    for (std::size_t r = in.begin; r < in.end; ++r) {
+        const GuideReceiver& receiver = lessons.receivers[r];
+        guide.mixtureAt(receiver.position, receiver.normal, mixture);
+        sum += double(lessons.background[r]);
+        plain += double(lessons.backgroundSquares[r]);
+        guided += double(lessons.backgroundSquares[r]) / double(1 - mixture.share);
+        for (; light < in.lastLight && lessons.lights[light].receiver == r; ++light) {
+            const GuideLight& l = lessons.lights[light];
+            const glm::vec3 direction = glm::normalize(l.position - receiver.position);
+            const float cosine = std::max(glm::dot(direction, receiver.normal), 1e-4f);
+            float density = 1 - mixture.share;
+            if (mixture.share > 0)
+                density +=
+                    mixture.share * PathGuide::pdf(mixture, receiver.position, direction) * kernels::kPi / cosine;
+            sum += double(l.radiance);
+            plain += double(l.radiance) * double(l.radiance);
+            guided += double(l.radiance) * double(l.radiance) / double(density);
+        }
+    }
+    const double rays = double(in.end - in.begin) * GuideLessons::kRaysPerReceiver;
+    const double square = sum * sum / rays;
+    return plain > square ? float(std::max(guided - square, 0.0) / (plain - square)) : 1.0f;
+}
+
+std::vector<Class> classes(const GuideLessons& lessons) {
+    std::vector<Class> out;
+    std::size_t light = 0;
+    for (std::size_t begin = 0, end; begin < lessons.receivers.size(); begin = end) {
+        for (end = begin;
+             end < lessons.receivers.size() && lessons.receivers[end].region == lessons.receivers[begin].region;)
+            ++end;
+        const std::size_t first = light;
+        while (light < lessons.lights.size() && lessons.lights[light].receiver < end) ++light;
+        out.push_back({begin, end, first, light});
+    }
+    return out;
+}
+
+}  // namespace
+
+Result<PathGuide> learnGuide(const Context& context, const Transport& transport, const Field& field,
+                             std::vector<GuideReceiver> first, std::uint64_t seed) {
+    const GridDesc& grid = field.desc().grid;
+    PathGuide guide(grid);
+    const auto lessons = takeLessons(context, transport, field, guide, std::move(first), seed);
+    if (!lessons) return tl::unexpected(lessons.error());
+    const Boxes boxes = gather(*lessons, std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z}));
+    const std::vector<Class> regions = classes(*lessons);
+    std::vector<RegionBoxes> found(regions.size());
+    parallelFor(context, regions.size(), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) found[i] = strongest(*lessons, boxes, regions[i]);
+    });
+    for (std::size_t i = 0; i < regions.size(); ++i)
+        guide.setRegion(lessons->receivers[regions[i].begin].region, std::move(found[i].blocks), found[i].background);
+    std::vector<float> shares(regions.size());
+    parallelFor(context, regions.size(), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) shares[i] = varianceShare(*lessons, guide, regions[i]);
+    });
+    for (std::size_t i = 0; i < regions.size(); ++i)
+        if (!(shares[i] < kWorthwhile)) guide.clearRegion(lessons->receivers[regions[i].begin].region);
+    return guide;
+}
+
+}  // namespace probegi
