@@ -39,6 +39,10 @@ void PathGuide::setRegion(std::size_t index, std::vector<Block> blocks, float ba
     m_blocks.insert(m_blocks.end(), blocks.begin(), blocks.end());
 }
 
+bool PathGuide::empty() const noexcept {
+    return std::all_of(m_regions.begin(), m_regions.end(), [](const Region& region) { return region.blocks == 0; });
+}
+
 void PathGuide::seenShares(const Block& block, glm::vec3 p, glm::vec3 n, float* out) noexcept {
     const glm::vec3 a(std::abs(n.x), std::abs(n.y), std::abs(n.z));
     for (int i = 0; i < kLanes; ++i) {

@@ -56,7 +56,8 @@ public:
     /// At most kMaxBlocks blocks; an earlier list of the region is forgotten.
     void setRegion(std::size_t index, std::vector<Block> blocks, float background);
     void clearRegion(std::size_t index) noexcept { m_regions[index] = {}; }
-    std::size_t boxBlocks() const noexcept { return m_blocks.size(); }
+    /// Whether no region has a box: there is nothing to follow anywhere.
+    bool empty() const noexcept;
 
     /// share == 0: nothing to follow here. The guide must outlive the mixture.
     void mixtureAt(glm::vec3 position, glm::vec3 normal, Mixture& out) const noexcept;

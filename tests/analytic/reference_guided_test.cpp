@@ -1,7 +1,6 @@
 // The closed forms of reference_furnace_test and reference_sky_test once more, with a field that guides the paths.
 #include <gtest/gtest.h>
 
-#include "probegi/builtin_scenes.h"
 #include "support/analytic_tracer.h"
 #include "support/reference_world.h"
 
@@ -64,24 +63,6 @@ TEST(GuidedClosedForm, openPlaneUnderAConstantSky) {
     const auto result = world.pathTracer().irradiance(points, 4000, 1, true, &field);
     ASSERT_TRUE(result);
     for (const ReferenceIrradiance& e : *result) expectNear(e, kPi * scene.sky.radiance);
-}
-
-/// A sunlit patch seen from a dark room: the case that guides are for. The truth is the unguided estimate; the guided
-/// one has less than half of its variance (measured: see docs/accuracy.md).
-TEST(GuidedClosedForm, isSharperWhereASmallPatchIsLit) {
-    const ReferenceWorld world(std::move(*makeBuiltinScene("two-rooms")));
-    const Field field = guideOver(world, *placeGrid(world.pose.bounds, {.targetProbes = 512}));
-    const Bounds b = world.pose.bounds;
-    const glm::vec3 middle = 0.5f * (b.lower + b.upper);
-    const std::vector<FieldQuery> points = {{{middle.x - 1, middle.y, middle.z}, {0, -1, 0}, {}}};
-    const auto plain = world.pathTracer().irradiance(points, 20000, 1, true);
-    const auto guided = world.pathTracer().irradiance(points, 20000, 2, true, &field);
-    ASSERT_TRUE(plain && guided);
-    const float both = glm::length(glm::vec2((*guided)[0].standardError.x, (*plain)[0].standardError.x));
-    EXPECT_NEAR((*guided)[0].mean.x, (*plain)[0].mean.x, 3 * both);
-    RecordProperty("plain", std::to_string((*plain)[0].standardError.x));
-    printf("plain %g +- %g guided %g +- %g\n", (*plain)[0].mean.x, (*plain)[0].standardError.x, (*guided)[0].mean.x,
-           (*guided)[0].standardError.x);
 }
 
 }  // namespace
