@@ -67,7 +67,7 @@ void VulkanRoom::clear() {
 
 std::vector<PassTime> VulkanRoom::update() {
     return run([&](const Recorder& recorder, Profiler& profiler) {
-        m_volume.recordUpdate(recorder, frame(), m_rayData.address(), {}, &profiler);
+        m_volume.recordUpdate(recorder, frame(), RayAddresses{.update = m_rayData.address()}, &profiler);
     });
 }
 

@@ -5,7 +5,9 @@
 
 #include "backend.h"
 #include "markdown.h"
+#include "motion.h"
 #include "parse.h"
+#include "probegi/builtin_scenes.h"
 #include "surface_points.h"
 #include "terminal.h"
 
@@ -73,6 +75,33 @@ Result<std::string> surfaces(const Context& context, const Options& options) {
     return surfaceTable(rows);
 }
 
+/// The Cornell box on the grid of its tests at several numbers of rays, and rooms lit from outside.
+Result<std::string> motion(const Context& context) {
+    std::vector<MotionResult> rows;
+    const auto add = [&](const char* name, const PlacementDesc& placement, int rays, FieldRules rules) -> Result<void> {
+        const auto scene = makeBuiltinScene(name);
+        if (!scene) return tl::unexpected(scene.error());
+        FieldDesc desc;
+        desc.raysPerProbe = rays;
+        desc.rules = rules;
+        const auto grid = placeGrid(poseAt(*scene).bounds, placement);
+        if (!grid) return tl::unexpected(grid.error());
+        desc.grid = *grid;
+        auto measured = measureMotion(context, name, *scene, desc);
+        if (!measured) return tl::unexpected(measured.error());
+        rows.push_back(std::move(*measured));
+        return {};
+    };
+    const PlacementDesc cornell{.counts = {8, 8, 8}}, other{.targetProbes = 1500};
+    for (const FieldRules rules : {FieldRules::paper, FieldRules::measured})
+        for (const int rays : {64, 144, 512})
+            if (auto done = add("cornell", cornell, rays, rules); !done) return tl::unexpected(done.error());
+    for (const char* name : {"house", "atrium"})
+        if (auto done = add(name, other, FieldDesc{}.raysPerProbe, FieldRules::measured); !done)
+            return tl::unexpected(done.error());
+    return motionTable(rows);
+}
+
 Result<void> measure(const Options& options) {
     const auto context = tool::makeContext(options.threads);
     if (!context) return tl::unexpected(context.error());
@@ -101,6 +130,11 @@ Result<void> measure(const Options& options) {
         if (!table) return tl::unexpected(table.error());
         tables += *table;
     }
+    if (wanted("motion")) {
+        const auto table = motion(*context);
+        if (!table) return tl::unexpected(table.error());
+        tables += *table;
+    }
     if (!options.page.empty() && options.only.empty()) return replaceBetweenMarkers(options.page, tables);
     fmt::print("{}", tables);
     return {};
@@ -112,8 +146,9 @@ int run(int argc, char** argv) {
     if (const char* folder = std::getenv("PROBEGI_SCENES"); folder && *folder) options.scenesFolder = folder;
     app.add_option("-o,--output", options.page, "page whose measured part is replaced (default: print)")
         ->type_name("FILE");
-    app.add_option("--only", options.only, "print the tables of one scene, the leak or the surfaces, and write nothing")
-        ->type_name("cornell|two-rooms|dark-room|sponza|leak|surfaces");
+    app.add_option("--only", options.only,
+                   "print the tables of one scene, the leak, the surfaces or motion, and write nothing")
+        ->type_name("cornell|two-rooms|dark-room|sponza|leak|surfaces|motion");
     app.add_option("--scenes", options.scenesFolder, "folder of the real scenes (default: PROBEGI_SCENES)")
         ->capture_default_str();
     app.add_option("--threads", options.threads, "worker threads; 0: all")->check(tool::inRange(0, 1024));

@@ -1,11 +1,14 @@
 #include "motion.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <random>
+#include <stdexcept>
 
 namespace probegi::accuracy {
 
@@ -54,48 +57,60 @@ std::vector<FieldQuery> surfacePoints(const World& world) {
     return points;
 }
 
+/// A value, or an exception with the error's sentence for main() to print.
+template <class T>
+T must(Result<T> result) {
+    if (!result) throw std::runtime_error(result.error().message);
+    return std::move(*result);
+}
+
+/// The field at the points.
 class Watcher {
 public:
     explicit Watcher(std::vector<FieldQuery> points) : m_points(std::move(points)), m_irradiance(m_points.size()) {}
 
-    /// Luminance, about, of the irradiance at each point.
-    const std::vector<glm::vec3>& look(const Field& field) {
-        (void)field.irradiance(m_points, m_irradiance);
-        return m_irradiance;
+    /// Mean over the channels of the irradiance at each point.
+    std::vector<double> look(const Field& field) {
+        if (const auto asked = field.irradiance(m_points, m_irradiance); !asked)
+            throw std::runtime_error(asked.error().message);
+        std::vector<double> light;
+        for (const glm::vec3& e : m_irradiance) light.push_back((double(e.x) + e.y + e.z) / 3);
+        return light;
     }
-    double mean(const Field& field) {
-        double sum = 0;
-        for (const glm::vec3& e : look(field)) sum += (double(e.x) + e.y + e.z) / 3;
-        return sum / double(m_points.size());
-    }
-    std::size_t size() const { return m_points.size(); }
 
 private:
     std::vector<FieldQuery> m_points;
     std::vector<glm::vec3> m_irradiance;
 };
 
-double convergedMean(const Context& context, const World& world, const FieldDesc& desc, Watcher& watcher) {
-    Field field = Field::create(context, desc).value();
-    field.converge(*world.tracer, world.lighting, kTruthTolerance, kTruthUpdates).value();
-    return watcher.mean(field);
+double meanOf(const std::vector<double>& light) {
+    return std::accumulate(light.begin(), light.end(), 0.0) / double(light.size());
+}
+
+std::vector<double> converged(const Context& context, const World& world, const FieldDesc& desc, Watcher& watcher) {
+    Field field = must(Field::create(context, desc));
+    must(field.converge(*world.tracer, world.lighting, kTruthTolerance, kTruthUpdates));
+    return watcher.look(field);
 }
 
 void measureFlicker(Field& field, const World& world, Watcher& watcher, MotionResult& result) {
-    std::vector<double> sum(watcher.size()), square(watcher.size());
+    std::vector<double> sum, square;
     for (int k = 0; k < kStillUpdates; ++k) {
-        field.update(*world.tracer, world.lighting).value();
-        const auto& e = watcher.look(field);
-        for (std::size_t i = 0; i < e.size(); ++i) {
-            const double value = (double(e[i].x) + e[i].y + e[i].z) / 3;
-            sum[i] += value;
-            square[i] += value * value;
+        must(field.update(*world.tracer, world.lighting));
+        const std::vector<double> light = watcher.look(field);
+        sum.resize(light.size());
+        square.resize(light.size());
+        for (std::size_t i = 0; i < light.size(); ++i) {
+            sum[i] += light[i];
+            square[i] += light[i] * light[i];
         }
     }
+    // Where there is next to no light, a ratio means nothing.
+    const double least = kDark * meanOf(sum) / kStillUpdates;
     std::vector<double> shares;
     for (std::size_t i = 0; i < sum.size(); ++i) {
         const double mean = sum[i] / kStillUpdates;
-        if (mean > 0) shares.push_back(std::sqrt(std::max(0.0, square[i] / kStillUpdates - mean * mean)) / mean);
+        if (mean > least) shares.push_back(std::sqrt(std::max(0.0, square[i] / kStillUpdates - mean * mean)) / mean);
     }
     if (shares.empty()) return;
     std::sort(shares.begin(), shares.end());
@@ -124,53 +139,102 @@ World withSunMoved(const Context& context, const Scene& scene) {
     return world;
 }
 
-/// Settled in `before`; updates in `after` until the mean stays near its goal.
-int updatesToFollow(const Context& context, const World* before, const World& after, double goal, const FieldDesc& desc,
-                    Watcher& watcher) {
-    Field field = Field::create(context, desc).value();
-    double start = 0;
+std::vector<double> times(std::vector<double> light, double factor) {
+    for (double& e : light) e *= factor;
+    return light;
+}
+
+/// How much of the way from `start` to `goal` is left: 1 at the start, 0 at the goal; every point counts by its own
+/// light.
+double shareLeft(const std::vector<double>& now, const std::vector<double>& start, const std::vector<double>& goal) {
+    const double least = kDark * std::max(meanOf(start), meanOf(goal));
+    double left = 0, whole = 0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        const double level = std::max({start[i], goal[i], least});
+        const double way = (start[i] - goal[i]) / level;
+        left += way * (now[i] - goal[i]) / level;
+        whole += way * way;
+    }
+    return left / whole;
+}
+
+/// Settled in `before` (null: new); updates in `after` until no more than a tenth of the way is left, nor ever again.
+int updatesToFollow(const Context& context, const World* before, const World& after, const std::vector<double>& goal,
+                    const FieldDesc& desc, Watcher& watcher) {
+    Field field = must(Field::create(context, desc));
+    std::vector<double> start(goal.size(), 0.0);
     if (before) {
-        for (int k = 0; k < kStillUpdates; ++k) field.update(*before->tracer, before->lighting).value();
-        start = watcher.mean(field);
+        for (int k = 0; k < kStillUpdates; ++k) must(field.update(*before->tracer, before->lighting));
+        start = watcher.look(field);
     }
     int lastOutside = 0;
     for (int k = 1; k <= kReactionHorizon; ++k) {
-        field.update(*after.tracer, after.lighting).value();
-        if (!(std::abs(watcher.mean(field) - goal) <= kWithin * std::abs(goal - start))) lastOutside = k;
+        must(field.update(*after.tracer, after.lighting));
+        if (!(std::abs(shareLeft(watcher.look(field), start, goal)) <= kWithin)) lastOutside = k;
     }
     return lastOutside < kReactionHorizon ? lastOutside + 1 : -1;
+}
+
+std::string cell(const MotionResult& row, const std::string& change) {
+    for (const Reaction& r : row.reactions)
+        if (r.change == change)
+            return r.updates < 0 ? fmt::format("over {}", kReactionHorizon) : fmt::format("{}", r.updates);
+    return "";
 }
 
 }  // namespace
 
 Result<MotionResult> measureMotion(const Context& context, const std::string& name, const Scene& scene,
-                                   const GridDesc& grid, const FieldDesc& settings, bool reactions) {
-    FieldDesc desc = settings;
-    desc.grid = grid;
+                                   const FieldDesc& desc) try {
     const World world(context, scene);
     Watcher watcher(surfacePoints(world));
-    MotionResult result{name, desc.raysPerProbe, 0, 0, 0, {}};
-    Field field = Field::create(context, desc).value();
-    for (int k = 0; k < kSettledUpdates - kStillUpdates; ++k) field.update(*world.tracer, world.lighting).value();
+    MotionResult result{name, desc.rules, probeCount(desc.grid), desc.raysPerProbe, 0, 0, 0, {}};
+    Field field = must(Field::create(context, desc));
+    for (int k = 0; k < kSettledUpdates - kStillUpdates; ++k) must(field.update(*world.tracer, world.lighting));
     measureFlicker(field, world, watcher, result);
-    // Light is linear: scaled lamps have scaled goals.
-    const double goal = convergedMean(context, world, desc, watcher);
-    result.settled = watcher.mean(field) / goal;
-    if (!reactions) return result;
+    const std::vector<double> goal = converged(context, world, desc, watcher);
+    result.settled = meanOf(watcher.look(field)) / meanOf(goal);
 
-    result.reactions.push_back({"from empty", updatesToFollow(context, nullptr, world, goal, desc, watcher)});
-    for (const auto& [change, factor] : {std::pair("x0.1", 0.1f), {"x0.8", 0.8f}, {"x10", 10.0f}, {"off", 1e-6f}}) {
-        const World after(context, scaled(scene, factor));
-        result.reactions.push_back({change, updatesToFollow(context, &world, after, factor * goal, desc, watcher)});
-    }
-    const World dark(context, scaled(scene, 1e-6f));
-    result.reactions.push_back({"on", updatesToFollow(context, &dark, world, goal, desc, watcher)});
+    const auto follow = [&](const char* change, const World* before, const World& after,
+                            const std::vector<double>& to) {
+        result.reactions.push_back({change, updatesToFollow(context, before, after, to, desc, watcher)});
+    };
+    follow(kChanges[0], nullptr, world, goal);
+    // Light is linear: scaled lamps have scaled goals.
+    for (std::size_t i = 0; i < kFactors.size(); ++i)
+        follow(kChanges[1 + i], &world, World(context, scaled(scene, kFactors[i])), times(goal, kFactors[i]));
+    const World dark(context, scaled(scene, kOff));
+    follow(kChanges[5], &dark, world, goal);
     if (hasSun(scene)) {
         const World moved = withSunMoved(context, scene);
-        const double movedGoal = convergedMean(context, moved, desc, watcher);
-        result.reactions.push_back({"sun jump", updatesToFollow(context, &world, moved, movedGoal, desc, watcher)});
+        follow(kChanges[6], &world, moved, converged(context, moved, desc, watcher));
     }
     return result;
+} catch (const std::runtime_error& error) {
+    return fail(ErrorCode::outOfMemory, error.what());
+}
+
+std::string motionTable(const std::vector<MotionResult>& rows) {
+    std::string table =
+        "\n### Light in motion\n\n"
+        "Only `update()`, without a word to the field. Settled: mean irradiance at surface points after 300 updates "
+        "over "
+        "that of `converge`. Flicker: temporal standard deviation over mean, mean and 95th percentile of the points, "
+        "over "
+        "60 updates. Then updates after which no more than a tenth of a change is left, nor ever again.\n\n"
+        "| scene | rules | probes | rays | settled | flicker | 95th |";
+    for (const char* change : kChanges) table += fmt::format(" {} |", change);
+    table += "\n|---|---|---:|---:|---:|---:|---:|";
+    for (std::size_t i = 0; i < kChanges.size(); ++i) table += "---:|";
+    table += "\n";
+    for (const MotionResult& row : rows) {
+        table += fmt::format("| {} | {} | {} | {} | {:.3f} | {:.2f} % | {:.2f} % |", row.scene,
+                             row.rules == FieldRules::paper ? "paper" : "measured", row.probes, row.rays, row.settled,
+                             100 * row.flicker, 100 * row.flicker95);
+        for (const char* change : kChanges) table += fmt::format(" {} |", cell(row, change));
+        table += "\n";
+    }
+    return table;
 }
 
 }  // namespace probegi::accuracy

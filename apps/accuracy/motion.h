@@ -16,6 +16,8 @@ struct Reaction {
 /// A scene in which the light changes: how `update()` follows, and how still it is where nothing changes.
 struct MotionResult {
     std::string scene;
+    FieldRules rules = FieldRules::measured;
+    int probes = 0;
     int rays = 0;          ///< a probe and update
     double settled = 0;    ///< mean irradiance after kSettledUpdates updates over that of `converge`
     double flicker = 0;    ///< temporal standard deviation over mean at surface points: mean over the points
@@ -25,9 +27,11 @@ struct MotionResult {
 
 inline constexpr int kSettledUpdates = 300;
 
-/// Measures a scene. `reactions`: whether the light is changed as well. All lights act as they do in the scene's rest
-/// pose. Errors: those of Field.
+/// Measures a scene; the desc has the grid. All lights act as they do in the scene's rest pose. Errors: those of Field.
 Result<MotionResult> measureMotion(const Context& context, const std::string& name, const Scene& scene,
-                                   const GridDesc& grid, const FieldDesc& desc, bool reactions);
+                                   const FieldDesc& desc);
+
+/// The table for docs/accuracy.md, with its heading.
+std::string motionTable(const std::vector<MotionResult>& rows);
 
 }  // namespace probegi::accuracy
