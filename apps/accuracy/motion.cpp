@@ -18,6 +18,10 @@ constexpr int kPoints = 2000;
 constexpr int kStillUpdates = 60;     ///< over which flicker is taken
 constexpr int kReactionHorizon = 60;  ///< updates that are watched after a change
 constexpr float kWithin = 0.1f;       ///< of the change
+constexpr double kDark = 0.01;        ///< share of the mean light below which places count as one that has so much
+constexpr float kOff = 1e-6f;
+constexpr std::array<float, 4> kFactors{0.1f, 0.8f, 10.0f, kOff};
+constexpr std::array kChanges{"from empty", "x0.1", "x0.8", "x10", "off", "on", "sun jump"};
 constexpr float kTruthTolerance = 0.002f;
 constexpr int kTruthUpdates = 400;
 
