@@ -85,7 +85,7 @@ Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, const Tracer& tra
         bounces = [&](std::span<const FieldQuery> queries, std::span<glm::vec3> out) {
             queryIrradiance(last, queries, out);
         };
-    const EmitterSearch emitters = emitterSearch(frame.desc, tracer, frame.ditherSeed);
+    const EmitterSearch emitters = emitterSearch(frame.desc, tracer, frame.raySeed);
     traceProbes(m_context, frame.desc.grid, {frame.directions, frame.fixedDirections}, tracer, lighting, bounces,
                 emitters, {m_rayData, m_fixedRays}, sums);
     m_emitterLights.resize(m_layout.probes * std::size_t(emitters.looks));

@@ -56,7 +56,8 @@ void TemporalFilter::measureLag(const Context& context, const UpdateFrame& frame
             m_sights[p] = fixed > 0
                               ? sightOf(fixedRays.subspan(p * fixed, fixed), frame.fixedDirections, layout.maxDistance)
                               : sightOf(rayData.subspan(p * rays, rays));
-            m_lags[p] = kernels::probeLag(m_sights[p], kernels::unpackFilter(storage.filters[p]));
+            m_lags[p] = kernels::lagHeard(kernels::probeLag(m_sights[p], kernels::unpackFilter(storage.filters[p])),
+                                          storage.backfaceShare[p]);
         }
     });
 }

@@ -43,6 +43,7 @@ UpdateFrame FrameBooks::comingUpdate() const noexcept {
                       .directions = m_directions,
                       .hysteresis = m_events.current(m_desc, m_frame == 0),
                       .ditherSeed = ditherSeedOf(m_desc, m_frame),
+                      .raySeed = ditherSeedOf(m_desc, m_turns) ^ 0x85ebca6bu,
                       .bounces = m_frame > 0};
     if (m_desc.rules == FieldRules::paper) return frame;
     frame.linear = frame.windows = true;
@@ -74,7 +75,9 @@ UpdateFrame FrameBooks::comingAverage(FrameHysteresis kept) const noexcept {
 void FrameBooks::advance(bool turn) {
     m_events.advance();
     ++m_frame;
-    if (turn) turnRays();
+    if (!turn) return;
+    ++m_turns;
+    turnRays();
 }
 
 }  // namespace probegi

@@ -19,6 +19,7 @@ struct UpdateFrame {
     float longestWindow = 1;                       ///< updates, of irradiance
     float longestVisibilityWindow = 1;             ///< updates, of distance moments
     std::uint32_t ditherSeed = 0;                  ///< differs between frames
+    std::uint32_t raySeed = 0;  ///< of random choices besides the directions: the same as long as the rays are
     bool bounces = true;                           ///< whether the probes hold light of an earlier update
 };
 
@@ -55,6 +56,7 @@ private:
     std::vector<glm::vec3> m_directions, m_fixedDirections;
     HysteresisSchedule m_events;
     int m_frame = 0;
+    int m_turns = 0;  // of the rays
 };
 
 }  // namespace probegi

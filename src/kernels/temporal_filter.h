@@ -12,6 +12,7 @@
 
 #include "kernels/colour.h"
 #include "kernels/probe_blend.h"
+#include "kernels/probe_query.h"
 #include "kernels/storage.h"
 
 KERNELS_BEGIN
@@ -144,6 +145,16 @@ KERNEL_FN ProbeLag probeLag(ProbeSight now, ProbeFilter state) {
     lag.bounced = known ? now.bounced - state.bounced : 0.0f;
     lag.level = max(sum * lobe + now.bounced, known ? sumBefore * lobe + state.bounced : 0.0f);
     lag.distance = known ? farthest : 0.0f;
+    return lag;
+}
+
+// What is in solid matter says nothing to its neighbours: nobody uses it, and what it sees depends on its materials.
+KERNEL_FN ProbeLag lagHeard(ProbeLag lag, float backfaceShare) {
+    const float heard = backfaceShare < kInsideShare + kInsideShareEdge ? 1.0f : 0.0f;
+    lag.direct *= heard;
+    lag.bounced *= heard;
+    lag.level *= heard;
+    lag.distance *= heard;
     return lag;
 }
 

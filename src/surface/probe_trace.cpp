@@ -110,7 +110,10 @@ struct TaskOutput {
     }
     // The ray met the back of a surface with two sides: see RayDatum.
     void markBack(std::size_t ray) const {
-        if (ray < update.size()) update[ray] = {kernels::radianceFromBack(update[ray].radiance), -update[ray].distance};
+        if (ray < update.size())
+            update[ray] = {kernels::radianceFromBack(update[ray].radiance), -update[ray].distance};
+        else
+            fixed[ray - update.size()].distance *= -1.0f;
     }
 };
 

@@ -131,7 +131,7 @@ Result<UpdateTimes> GpuField::update(const UpdateFrame& frame, const Tracer& tra
                 orThrow(irradiance(frame.desc, queries, out));
             };
         TraceTimes sums;
-        const EmitterSearch emitters = emitterSearch(frame.desc, tracer, frame.ditherSeed);
+        const EmitterSearch emitters = emitterSearch(frame.desc, tracer, frame.raySeed);
         traceProbes(m_context, frame.desc.grid, {frame.directions, frame.fixedDirections}, tracer, lighting, bounces,
                     emitters, {m_rayData, m_fixedRays}, sums);
         m_emitterLights.resize(m_passes.layout().probes * std::size_t(emitters.looks));

@@ -229,7 +229,7 @@ void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& fram
                                      .bounces = frame.bounces ? 1 : 0,
                                      .looks = data.looks,
                                      .emitterLights = packAddress(data.emitterLights),
-                                     .emitterSeed = frame.ditherSeed});
+                                     .emitterSeed = frame.raySeed});
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "trace");
         recorder.dispatchOver("trace_probes" + tracer, rays);

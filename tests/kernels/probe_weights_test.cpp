@@ -152,12 +152,14 @@ TEST(SurfaceGradient, theAxisIsTheNormalsLargest) {
 }
 
 TEST(SurfaceGradient, takesWhatTheGradientPredicts) {
-    // A slope of 0.1 at a root of 1, half a cell ahead: 0.05, damped by 1 / (1 + 0.1).
-    EXPECT_NEAR(rootAtSurface(1.0f, 0.02f, 0.2f, 0.5f, 1.0f), 1.0f - 0.05f / 1.1f, 1e-6f);
+    // A slope of 0.1 at a root of 1, of which 0.1 / (0.1 + 0.02) is believed, half a cell ahead: s / 2, damped by
+    // 1 / (1 + s).
+    const float s = 0.1f * 0.1f / (0.1f + kDoubtfulRise);
+    EXPECT_NEAR(rootAtSurface(1.0f, 0.02f, 0.2f, 0.5f, 1.0f), 1.0f - 0.5f * s / (1.0f + s), 1e-6f);
     // Half trusted: by the normal, by the weight of the pairs.
-    EXPECT_NEAR(rootAtSurface(1.0f, 0.02f, 0.2f, 0.5f, 0.5f), 1.0f - 0.025f / 1.1f, 1e-6f);
+    EXPECT_NEAR(rootAtSurface(1.0f, 0.02f, 0.2f, 0.5f, 0.5f), 1.0f - 0.25f * s / (1.0f + s), 1e-6f);
     const float half = 0.5f * kTrustedWeight;
-    EXPECT_NEAR(rootAtSurface(1.0f, 0.1f * half, half, 0.5f, 1.0f), 1.0f - 0.025f / 1.1f, 1e-6f);
+    EXPECT_NEAR(rootAtSurface(1.0f, 0.1f * half, half, 0.5f, 1.0f), 1.0f - 0.25f * s / (1.0f + s), 1e-6f);
     EXPECT_FLOAT_EQ(cellsAhead(0.6f, 2.0f, -0.5f), 0.6f);
     EXPECT_EQ(cellsAhead(-0.6f, 2.0f, 1.0f), 0.0f);
 }
@@ -168,6 +170,8 @@ TEST(SurfaceGradient, neverAddsAndNeverTakesMoreThanItsShare) {
     EXPECT_EQ(rootAtSurface(0.0f, 0.1f, 0.2f, 0.5f, 1.0f), 0.0f);
     EXPECT_EQ(rootAtSurface(1.0f, 0.0f, 0.0f, 0.5f, 1.0f), 1.0f);
     EXPECT_FLOAT_EQ(rootAtSurface(2.0f, 1e6f, 1.0f, 1.5f, 1.0f), 2.0f * (1.0f - kMaxTaken));
+    // Noise of half a per cent is hardly followed: it would only ever darken.
+    EXPECT_GT(rootAtSurface(1.0f, 0.005f, 1.0f, 0.5f, 1.0f), 1.0f - 6e-4f);
 }
 
 TEST(ProbeBlend, backfacesShortenByEightyPercent) {

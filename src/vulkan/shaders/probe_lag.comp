@@ -1,6 +1,7 @@
 // What the fixed rays of each probe tell of its lag. A thread a probe.
 #include "filter.glsl"
 #include "ray_data.glsl"
+#include "volume.glsl"
 
 layout(push_constant, scalar) uniform Push {
     FilterPush push;
@@ -26,5 +27,6 @@ void main() {
     if (probe >= push.probes) return;
     const ProbeSight sight = sightOfProbe(probe);
     ProbeSteps(push.steps).at[probe].sight = sight;
-    ProbeSteps(push.steps).at[probe].lag = probeLag(sight, unpackFilter(ProbeFilters(push.filters).at[probe]));
+    ProbeSteps(push.steps).at[probe].lag = lagHeard(
+        probeLag(sight, unpackFilter(ProbeFilters(push.filters).at[probe])), probegiStates.backfaceShare[probe]);
 }

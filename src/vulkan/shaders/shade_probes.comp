@@ -68,5 +68,6 @@ void main() {
         RayData(push.rayData).at[probe * push.rays + rayIndex] = datumOf(light);
     else
         FixedRays(push.fixedRays).at[probe * push.fixedRayCount + rayIndex - push.rays] =
-            FixedRayDatum(luminance(light.direct), luminance(light.bounced), light.distance);
+            FixedRayDatum(luminance(light.direct), luminance(light.bounced),
+                          light.back ? -light.distance : light.distance);
 }

@@ -25,7 +25,7 @@ ProbeFilter takeFilter(INOUT(Lane) lane) {
 
 ProbeSight takeSight(INOUT(Lane) lane) {
     SightSum sum = noSight();
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 2; ++i) {
         const vec3 direction = takeDirection(lane);
         const float direct = takeBetween(lane, -1.0f, 20.0f);
         const float bounced = takeBetween(lane, 0.0f, 5.0f);
@@ -49,7 +49,7 @@ void evaluate(INOUT(Lane) lane) {
 
     const ProbeSight sight = takeSight(lane);
     ProbeFilter state = takeFilter(lane);
-    const ProbeLag lag = probeLag(sight, state);
+    const ProbeLag lag = lagHeard(probeLag(sight, state), 0.1f);
     giveLag(lane, lag);
     LagAround around = noLag();
     addLag(around, lag, 2.0f * lag.level, true);
