@@ -14,9 +14,10 @@ KERNELS_BEGIN
 KERNEL_CONST float kMaxTaken = 0.5f;
 // Weight of the pairs of probes at which their gradient is trusted in full.
 KERNEL_CONST float kTrustedWeight = 0.1f;
-// Rise from cell to cell, as a share of the (square root of the) light, at which half of it is believed: smaller ones
-// are mostly noise of the probes, and taking what noise adds but never giving back would darken everything.
-KERNEL_CONST float kDoubtfulRise = 0.02f;
+// Rise from cell to cell, as a share of the (square root of the) light, that is not believed; twice as much is in full.
+// Small rises are mostly noise of the probes, and to take what noise adds but never give back what it takes would darken
+// everything, closed rooms of many bounces most.
+KERNEL_CONST float kDoubtfulRise = 0.01f;
 // Lead of the normal's largest component over the next at which its axis counts in full.
 KERNEL_CONST float kAxisLead = 0.15f;
 
@@ -49,7 +50,8 @@ KERNEL_FN Real rootAtSurface(Real root, Real rise, float pairWeight, float cells
     const float known = cells * trust * min(1.0f, pairWeight * (1.0f / kTrustedWeight));
     // The tiny addends decide 0 / 0: no pairs, or no light.
     const Real slope = max(rise, Real(0.0f)) * (1.0f / (pairWeight + 1e-20f));
-    const Real believed = slope * slope / (slope + kDoubtfulRise * root + 1e-20f);
+    const Real doubt = kDoubtfulRise * root + 1e-20f;
+    const Real believed = slope * min(max(slope / doubt - 1.0f, Real(0.0f)), Real(1.0f));
     const Real damped = believed * root / (believed + root + 1e-20f);
     return root - min(damped * known, root * kMaxTaken);
 }

@@ -152,9 +152,8 @@ TEST(SurfaceGradient, theAxisIsTheNormalsLargest) {
 }
 
 TEST(SurfaceGradient, takesWhatTheGradientPredicts) {
-    // A slope of 0.1 at a root of 1, of which 0.1 / (0.1 + 0.02) is believed, half a cell ahead: s / 2, damped by
-    // 1 / (1 + s).
-    const float s = 0.1f * 0.1f / (0.1f + kDoubtfulRise);
+    // A slope of 0.1 at a root of 1, half a cell ahead: 0.05, damped by 1 / (1 + 0.1).
+    const float s = 0.1f;
     EXPECT_NEAR(rootAtSurface(1.0f, 0.02f, 0.2f, 0.5f, 1.0f), 1.0f - 0.5f * s / (1.0f + s), 1e-6f);
     // Half trusted: by the normal, by the weight of the pairs.
     EXPECT_NEAR(rootAtSurface(1.0f, 0.02f, 0.2f, 0.5f, 0.5f), 1.0f - 0.25f * s / (1.0f + s), 1e-6f);
@@ -170,8 +169,9 @@ TEST(SurfaceGradient, neverAddsAndNeverTakesMoreThanItsShare) {
     EXPECT_EQ(rootAtSurface(0.0f, 0.1f, 0.2f, 0.5f, 1.0f), 0.0f);
     EXPECT_EQ(rootAtSurface(1.0f, 0.0f, 0.0f, 0.5f, 1.0f), 1.0f);
     EXPECT_FLOAT_EQ(rootAtSurface(2.0f, 1e6f, 1.0f, 1.5f, 1.0f), 2.0f * (1.0f - kMaxTaken));
-    // Noise of half a per cent is hardly followed: it would only ever darken.
-    EXPECT_GT(rootAtSurface(1.0f, 0.005f, 1.0f, 0.5f, 1.0f), 1.0f - 6e-4f);
+    // Noise of less than a per cent is not followed: it would only ever darken. Half as much again is, by half.
+    EXPECT_EQ(rootAtSurface(1.0f, 0.009f, 1.0f, 0.5f, 1.0f), 1.0f);
+    EXPECT_NEAR(rootAtSurface(1.0f, 0.015f, 1.0f, 1.0f, 1.0f), 1.0f - 0.0075f / 1.0075f, 1e-6f);
 }
 
 TEST(ProbeBlend, backfacesShortenByEightyPercent) {

@@ -29,9 +29,12 @@ ProbeSight takeSight(INOUT(Lane) lane) {
         const vec3 direction = takeDirection(lane);
         const float direct = takeBetween(lane, -1.0f, 20.0f);
         const float bounced = takeBetween(lane, 0.0f, 5.0f);
-        addToSight(sum, direction, direct, bounced, takeBetween(lane, -3.0f, 3.0f), 2.0f);
+        const float distance = takeBetween(lane, -3.0f, 3.0f);
+        addToSight(sum, direction, direct, bounced, distance, 2.0f);
     }
-    addOwnRayToSight(sum, takeVector(lane, -0.1f, 2.0f), takeBetween(lane, -1.0f, 3.0f));
+    const vec3 radiance = takeVector(lane, -0.1f, 2.0f);
+    const float distance = takeBetween(lane, -1.0f, 3.0f);
+    addOwnRayToSight(sum, radiance, distance);
     return sightOf(sum);
 }
 
@@ -65,7 +68,9 @@ void evaluate(INOUT(Lane) lane) {
     give(lane, nextNoise(noise, 9.0f * share, share, state.window, isUnknown(state)), 1e-4f);
 
     TexelChange change = noChange();
-    addTexelChange(change, takeVector(lane, 0.0f, 2.0f), takeVector(lane, 0.0f, 20.0f));
+    const vec3 stored = takeVector(lane, 0.0f, 2.0f);
+    const vec3 mean = takeVector(lane, 0.0f, 20.0f);
+    addTexelChange(change, stored, mean);
     TexelChange sum = noChange();
     joinChanges(sum, change);
     give(lane, relativeChange(sum, 3), 1e-4f);
