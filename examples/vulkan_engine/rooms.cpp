@@ -108,6 +108,7 @@ FieldDesc fieldDesc() {
     // Walls lie between probes, and a layer of probes outside of them: 980 in all.
     desc.grid = {.origin = {-4.875f, -0.45f, -3.375f}, .spacing = glm::vec3(0.75f), .counts = {14, 7, 10}};
     desc.hysteresis = desc.visibilityHysteresis = 0.9f;  // a short film: follow it closely
+    desc.fixedRays = 0;  // the engine's own rays bring none, and both volumes are to follow alike
     return desc;
 }
 

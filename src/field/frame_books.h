@@ -20,7 +20,7 @@ struct UpdateFrame {
     float longestVisibilityWindow = 1;             ///< updates, of distance moments
     std::uint32_t ditherSeed = 0;                  ///< differs between frames
     std::uint32_t raySeed = 0;  ///< of random choices besides the directions: the same as long as the rays are
-    bool bounces = true;                           ///< whether the probes hold light of an earlier update
+    bool bounces = true;        ///< whether the probes hold light of an earlier update
 };
 
 /// What a volume of probes keeps from frame to frame besides its probes, the same on every backend: how many updates

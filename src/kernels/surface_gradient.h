@@ -15,8 +15,8 @@ KERNEL_CONST float kMaxTaken = 0.5f;
 // Weight of the pairs of probes at which their gradient is trusted in full.
 KERNEL_CONST float kTrustedWeight = 0.1f;
 // Rise from cell to cell, as a share of the (square root of the) light, that is not believed; twice as much is in full.
-// Small rises are mostly noise of the probes, and to take what noise adds but never give back what it takes would darken
-// everything, closed rooms of many bounces most.
+// Small rises are mostly noise of the probes, and to take what noise adds but never give back what it takes would
+// darken everything, closed rooms of many bounces most.
 KERNEL_CONST float kDoubtfulRise = 0.01f;
 // Lead of the normal's largest component over the next at which its axis counts in full.
 KERNEL_CONST float kAxisLead = 0.15f;

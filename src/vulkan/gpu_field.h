@@ -40,8 +40,7 @@ private:
     const GpuLighting& uploaded(const Lighting& lighting) const;
     UpdateTimes updateOnGpu(const UpdateFrame& frame, const GpuTracer& tracer, const Lighting& lighting);
     UpdateTimes updateFrom(const UpdateFrame& frame, std::span<const RayDatum> rayData,
-                           std::span<const FixedRayDatum> fixedRays,
-                           std::span<const kernels::EmitterLight> lights);
+                           std::span<const FixedRayDatum> fixedRays, std::span<const kernels::EmitterLight> lights);
     /// guarded(), for passes over the volume.
     template <class Body>
     auto attempted(const char* doing, const Body& body) const;

@@ -27,6 +27,6 @@ void main() {
     if (probe >= push.probes) return;
     const ProbeSight sight = sightOfProbe(probe);
     ProbeSteps(push.steps).at[probe].sight = sight;
-    ProbeSteps(push.steps).at[probe].lag = lagHeard(
-        probeLag(sight, unpackFilter(ProbeFilters(push.filters).at[probe])), probegiStates.backfaceShare[probe]);
+    ProbeSteps(push.steps).at[probe].lag = lagHeard(probeLag(sight, unpackFilter(ProbeFilters(push.filters).at[probe])),
+                                                    probegiStates.backfaceShare[probe]);
 }

@@ -67,7 +67,6 @@ void main() {
     if (rayIndex < push.rays)
         RayData(push.rayData).at[probe * push.rays + rayIndex] = datumOf(light);
     else
-        FixedRays(push.fixedRays).at[probe * push.fixedRayCount + rayIndex - push.rays] =
-            FixedRayDatum(luminance(light.direct), luminance(light.bounced),
-                          light.back ? -light.distance : light.distance);
+        FixedRays(push.fixedRays).at[probe * push.fixedRayCount + rayIndex - push.rays] = FixedRayDatum(
+            luminance(light.direct), luminance(light.bounced), light.back ? -light.distance : light.distance);
 }
