@@ -1,6 +1,7 @@
 // What a guide gains: variance x time of the path tracer with and without one, in interleaved runs of one thread.
-//   probegi_guide_bench [--samples N] [--size WxH] [--rounds N] SCENE ...
-// SCENE is builtin:NAME or a file. Times are those of the processor, so that a busy machine disturbs little.
+//   probegi_guide_bench [--samples N] [--size WxH] [--rounds N] [--camera N] SCENE ...
+// SCENE is builtin:NAME or a file. Times are those of the processor, so that a busy machine disturbs little. The gain
+// leaves the learning out, whose time stands beside it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +37,6 @@ double luminance(glm::vec3 c) {
 /// Of one sample a pixel: variance of the luminance over the picture's mean squared, and seconds.
 struct Cost {
     double variance = 0;
-    double indirectVariance = 0;
     double relative = 0;  ///< mean over pixels of variance over the pixel's own square
     double seconds = 0;
     double buildSeconds = 0;

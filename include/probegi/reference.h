@@ -15,9 +15,9 @@ struct ReferenceDesc {
     double relativeError = 0;  ///< stop when the mean standard error over the mean luminance is below; 0: no limit
     int maxBounces = 0;        ///< 0: unlimited (Russian roulette only)
     std::uint64_t seed = 1;
-    /// A converged field whose light guides the paths: they look where it says that light comes from. It shapes the
-    /// density of the samples only, so the expectation is the same whatever the field holds; a good one takes most of
-    /// the noise away where light arrives from small bright places. Null: unguided. It must outlive the call.
+    /// A converged field whose light guides the paths. It shapes the density of the samples only, so the expectation is
+    /// the same whatever the field holds; how much noise it takes away depends on the scene (docs/accuracy.md), and
+    /// learning takes a second or two of one processor. Null: unguided. It must outlive the call.
     const Field* guide = nullptr;
 };
 

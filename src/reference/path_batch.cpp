@@ -190,7 +190,7 @@ PathBatch::Response PathBatch::response(const Path& path, const Vertex& vertex, 
 
 /// What the rest of a path is worth. Guided, one that was led to a bright place has brought home the most of it with
 /// the light that it met there: its own weight, that of the first direction included, says what is left. The root of it
-/// was measured better than the weight itself, which ends too many paths in rooms of many bounces.
+/// lost less than the weight itself in builtin:house, which that ended too many paths of.
 float PathBatch::survivalOf(const Path& path) const {
     const float weight = maxComponent(path.throughput);
     return m_settings.guide ? std::sqrt(path.firstIrradiance / kernels::kPi * weight) : weight;
