@@ -153,7 +153,8 @@ TEST_F(Vulkan, BenchTimesEachPass) {
     EXPECT_EQ(figures["tracer"], "BVH");
     EXPECT_THAT(run.out, HasSubstr(figures["device"].get<std::string>()));
     double passes = 0;
-    for (const char* row : {"weights", "trace", "shade", "blend irradiance", "blend visibility"}) {
+    for (const char* row : {"weights", "trace", "shade", "emitters", "windows", "blend irradiance", "blend visibility",
+                            "filter", "solid probes"}) {
         EXPECT_GT(figures["rows"][row]["ms"], 0) << row;
         EXPECT_THAT(run.out, HasSubstr(std::string("| update: ") + row));
         passes += figures["rows"][row]["ms"].get<double>();
