@@ -15,7 +15,8 @@ void evaluate(INOUT(Lane) lane) {
     const uint rays = takeBits(lane);
     const float hysteresis = takeBetween(lane, 0.0f, 0.999f);
 
-    SidesSeen seen = SidesSeen(0, 0, 0);
+    SidesSeen seen;
+    seen.hits = seen.backs = seen.solidBacks = 0;
     for (uint i = 0u; i < 4u; ++i) {
         const uint ray = rays >> (3u * i);
         seen = addSides(seen, packSides((ray & 1u) != 0u, (ray & 3u) == 3u, (ray & 7u) == 7u));
