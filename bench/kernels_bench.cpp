@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "cpu/wide.h"
 #include "kernels/irradiance_encoding.h"
 #include "kernels/octahedral_texel.h"
 #include "kernels/probe_blend.h"
@@ -44,27 +43,6 @@ void octEncode(benchmark::State& state) {
     each(state, directions(), [](glm::vec3 d) { return kernels::octEncode(d); });
 }
 
-// Eight directions abreast, as the query's visibility look-up has them; "one" is one direction.
-void octEncodeWide(benchmark::State& state) {
-    namespace wide = kernels::wide;
-    const auto in = directions();
-    float x[kCount], y[kCount], z[kCount], u[kCount], v[kCount];
-    for (std::size_t i = 0; i < kCount; ++i) x[i] = in[i].x, y[i] = in[i].y, z[i] = in[i].z;
-    const auto load = [](const float* from) { return wide::Real(from, wide::stdx::element_aligned); };
-    for (auto _ : state) {
-        for (std::size_t i = 0; i < kCount; i += wide::kLanes) {
-            const wide::Real2 p = wide::octEncode({load(x + i), load(y + i), load(z + i)});
-            p.x.copy_to(u + i, wide::stdx::element_aligned);
-            p.y.copy_to(v + i, wide::stdx::element_aligned);
-        }
-        benchmark::DoNotOptimize(u);
-        benchmark::DoNotOptimize(v);
-        benchmark::ClobberMemory();
-    }
-    state.counters["one"] = benchmark::Counter(double(kCount) * double(state.iterations()),
-                                               benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-}
-
 void octDecode(benchmark::State& state) {
     std::vector<glm::vec2> in;
     for (const glm::vec3& d : directions()) in.push_back(kernels::octEncode(d));
@@ -95,7 +73,6 @@ void visibilityWeight(benchmark::State& state) {
 }
 
 BENCHMARK(octEncode);
-BENCHMARK(octEncodeWide);
 BENCHMARK(octDecode);
 BENCHMARK(encodeIrradiance);
 BENCHMARK(encodeByPow);

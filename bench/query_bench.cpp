@@ -1,4 +1,4 @@
-// The query by guard and by order of the points, and the choice of SIMD: eight probes abreast against one by one.
+// The query by guard and by order of the points, and what SIMD gains: several points abreast against one by one.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>

@@ -4,8 +4,8 @@
 
 namespace probegi::bench {
 
-/// The query with the moments guard from the same kernels, one probe after the other instead of eight abreast: what the
-/// SIMD of src/cpu/probe_query.cpp is compared with. Points that no probe can answer get whatever comes out.
+/// The query from the same kernels, one point and one probe after the other: what the SIMD of src/cpu/query_lanes.cpp
+/// is compared with, in speed and in the tests in what it answers.
 void queryScalar(const FieldView& view, std::span<const FieldQuery> queries, std::span<glm::vec3> out);
 
 }  // namespace probegi::bench

@@ -3,6 +3,8 @@
 
 add_library(probegi_options INTERFACE)
 target_compile_options(probegi_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+# Highway would compile for AVX-512 twice, with and without instructions that nothing here uses.
+target_compile_definitions(probegi_options INTERFACE HWY_DISABLED_TARGETS=HWY_AVX3_DL)
 if(PROBEGI_WERROR)
     target_compile_options(probegi_options INTERFACE -Werror)
 endif()

@@ -8,7 +8,7 @@ source scripts/apt.sh
 build_packages=(
     g++ cmake ninja-build ccache
     libembree-dev libtbb-dev        # ray tracing, threads
-    libglm-dev libeigen3-dev      # vectors, matrix product
+    libglm-dev libeigen3-dev libhwy-dev  # vectors, matrix product, SIMD
     libtinygltf-dev libdraco-dev libstb-dev libopenexr-dev nlohmann-json3-dev  # files
     libturbojpeg0-dev libjpeg62-turbo-dev  # the first one's CMake package asks for files of the second
     libcli11-dev libfmt-dev libexpected-dev

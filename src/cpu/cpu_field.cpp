@@ -42,6 +42,7 @@ CpuField::CpuField(const Context& context, const FieldDesc& desc)
 FieldView CpuField::view(const FieldDesc& desc) const noexcept {
     const glm::vec3& s = desc.grid.spacing;
     return {.desc = &desc,
+            .probes = m_layout.probes,
             .irradiance = m_storage.irradiance.data(),
             .visibility = m_storage.visibility.data(),
             .backfaceShare = m_storage.backfaceShare.data(),

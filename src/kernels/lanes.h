@@ -1,6 +1,6 @@
-// The scalar type of kernels that run several probes abreast. In GLSL, and in plain C++, Real is float and select() is
-// the conditional operator. src/cpu/wide.h includes the same headers a second time in another namespace where Real is
-// eight floats: the eight probes around a point. So these kernels have no branches on Real.
+// The types of kernels that answer several points abreast. In GLSL, and in plain C++, Real is float, Int is int and
+// select() is the conditional operator. src/cpu/lanes-inl.h includes the same headers a second time in another
+// namespace where they hold as many values as the processor's vectors. So these kernels have no branches on Real.
 #ifndef PROBEGI_KERNELS_LANES_H
 #define PROBEGI_KERNELS_LANES_H
 
@@ -8,6 +8,7 @@
 
 #ifndef __cplusplus
 #define Real float
+#define Int int
 #define Real2 vec2
 #define Real3 vec3
 #endif
@@ -16,11 +17,15 @@ KERNELS_BEGIN
 
 #ifdef __cplusplus
 using Real = float;
+using Int = int;
 using Real2 = vec2;
 using Real3 = vec3;
 #endif
 
 KERNEL_FN float select(bool condition, float ifTrue, float ifFalse) {
+    return condition ? ifTrue : ifFalse;
+}
+KERNEL_FN int select(bool condition, int ifTrue, int ifFalse) {
     return condition ? ifTrue : ifFalse;
 }
 

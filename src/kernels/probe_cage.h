@@ -3,27 +3,27 @@
 #ifndef PROBEGI_KERNELS_PROBE_CAGE_H
 #define PROBEGI_KERNELS_PROBE_CAGE_H
 
-#include "kernels/language.h"
+#include "kernels/lanes.h"
 
 KERNELS_BEGIN
 
 // Outside the grid the nearest point of it answers: farther away no probe could see the point.
-KERNEL_FN vec3 clampToGrid(vec3 position, vec3 origin, vec3 spacing, ivec3 counts) {
+KERNEL_FN Real3 clampToGrid(Real3 position, vec3 origin, vec3 spacing, ivec3 counts) {
     return clamp(position, origin, origin + spacing * vec3(counts - 1));
 }
 
 // The place in the grid, in spacings from its origin.
-KERNEL_FN vec3 gridCoordinates(vec3 position, vec3 origin, vec3 inverseSpacing) {
+KERNEL_FN Real3 gridCoordinates(Real3 position, vec3 origin, vec3 inverseSpacing) {
     return (position - origin) * inverseSpacing;
 }
 
 // The cage's lowest probe, as whole floats.
-KERNEL_FN vec3 cageBase(vec3 gridPosition, ivec3 counts) {
+KERNEL_FN Real3 cageBase(Real3 gridPosition, ivec3 counts) {
     return clamp(floor(gridPosition), vec3(0.0f), vec3(counts - 2));
 }
 
 // Where a point lies in its cage, 0..1 an axis.
-KERNEL_FN vec3 cageAlpha(vec3 gridPosition, vec3 base) {
+KERNEL_FN Real3 cageAlpha(Real3 gridPosition, Real3 base) {
     return clamp(gridPosition - base, vec3(0.0f), vec3(1.0f));
 }
 

@@ -33,14 +33,14 @@ KERNEL_CONST float kInsideShare = 0.25f;
 KERNEL_CONST float kInsideShareEdge = 0.05f;
 
 // Eq. 2: the offset from a surface point to where visibility is tested. `toViewer` is omega_o.
-KERNEL_FN vec3 selfShadowBias(vec3 normal, vec3 toViewer, float minSpacing, float tunableBias) {
+KERNEL_FN Real3 selfShadowBias(Real3 normal, Real3 toViewer, float minSpacing, float tunableBias) {
     return (normal * 0.2f + toViewer * 0.8f) * (0.75f * minSpacing * tunableBias);
 }
 
 // Where visibility is tested, from the point. Eq. 2 by the paper's rules. Measured: longer along the normal, so that
 // behind a thin wall a point lies well behind the mean distance of what is on the wall's other side; and less towards
 // the viewer, who may look along a wall. Leak through 2 cm at 1 m: a third of eq. 2's (docs/accuracy.md).
-KERNEL_FN vec3 visibilityBias(vec3 normal, vec3 toViewer, float minSpacing, float tunableBias, int rules) {
+KERNEL_FN Real3 visibilityBias(Real3 normal, Real3 toViewer, float minSpacing, float tunableBias, int rules) {
     if (rules == kRulesPaper) return selfShadowBias(normal, toViewer, minSpacing, tunableBias);
     return (normal * 1.3f + toViewer * 0.67f) * (0.75f * minSpacing * tunableBias);
 }
@@ -48,12 +48,12 @@ KERNEL_FN vec3 visibilityBias(vec3 normal, vec3 toViewer, float minSpacing, floa
 // By how much a point is moved before its cage is chosen: not at all by the paper's rules. Measured: with all of eq. 2,
 // surfaces take the light of the room's middle (Cornell box 10 % too bright on average); with none, a wall that
 // coincides with a layer of probes leaks three times as much. A quarter has nearly the best of both.
-KERNEL_FN vec3 cageBias(vec3 normal, vec3 toViewer, float minSpacing, float tunableBias, int rules) {
+KERNEL_FN Real3 cageBias(Real3 normal, Real3 toViewer, float minSpacing, float tunableBias, int rules) {
     return selfShadowBias(normal, toViewer, minSpacing, tunableBias) * (rules == kRulesPaper ? 0.0f : 0.25f);
 }
 
 // Trilinear factor of one axis: `corner` is 0 or 1, `alpha` the position in the cell, 0..1.
-KERNEL_FN Real trilinearFactor(Real corner, float alpha) {
+KERNEL_FN Real trilinearFactor(float corner, Real alpha) {
     return max(Real(kMinTrilinear), corner * alpha + (1.0f - corner) * (1.0f - alpha));
 }
 

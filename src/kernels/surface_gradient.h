@@ -22,32 +22,34 @@ KERNEL_CONST float kDoubtfulRise = 0.01f;
 KERNEL_CONST float kAxisLead = 0.15f;
 
 // The axis of the grid along which a normal points most.
-KERNEL_FN int dominantAxis(vec3 normal) {
-    const vec3 a = abs(normal);
-    if (a.x >= a.y && a.x >= a.z) return 0;
-    return a.y >= a.z ? 1 : 2;
+KERNEL_FN Int dominantAxis(Real3 normal) {
+    const Real x = abs(normal.x);
+    const Real y = abs(normal.y);
+    const Real z = abs(normal.z);
+    return select(x >= y && x >= z, Int(0), select(y >= z, Int(1), Int(2)));
 }
 
 // How far that axis stands for the normal, 0..1: 0 where another takes over, so that round surfaces have no seams.
-KERNEL_FN float axisTrust(vec3 normal) {
-    const vec3 a = abs(normal);
-    const float largest = max(a.x, max(a.y, a.z));
-    const float smallest = min(a.x, min(a.y, a.z));
-    const float middle = a.x + a.y + a.z - largest - smallest;
-    return clamp((largest - middle) * (1.0f / kAxisLead), 0.0f, 1.0f);
+KERNEL_FN Real axisTrust(Real3 normal) {
+    const Real x = abs(normal.x);
+    const Real y = abs(normal.y);
+    const Real z = abs(normal.z);
+    const Real largest = max(x, max(y, z));
+    const Real middle = x + y + z - largest - min(x, min(y, z));
+    return min(max((largest - middle) * (1.0f / kAxisLead), Real(0.0f)), Real(1.0f));
 }
 
 // Cells along the axis by which the light was read in front of the surface; `ahead`: the weighted mean of the probes'
 // distance to the surface's plane, metres.
-KERNEL_FN float cellsAhead(float ahead, float axisSpacing, float normalOnAxis) {
-    return max(ahead, 0.0f) / (axisSpacing * abs(normalOnAxis));
+KERNEL_FN Real cellsAhead(Real ahead, Real axisSpacing, Real normalOnAxis) {
+    return max(ahead, Real(0.0f)) / (axisSpacing * abs(normalOnAxis));
 }
 
 // One channel at the surface. `root`: what the cage answers; `rise`: sum over the pairs of weight times what the probe
 // beyond has more than the one in front, both in the space of decodeToBlendSpace(); `pairWeight`: sum of the weights.
 // A steep rise is damped: light that falls by its own size within a cell is not linear.
-KERNEL_FN Real rootAtSurface(Real root, Real rise, float pairWeight, float cells, float trust) {
-    const float known = cells * trust * min(1.0f, pairWeight * (1.0f / kTrustedWeight));
+KERNEL_FN Real rootAtSurface(Real root, Real rise, Real pairWeight, Real cells, Real trust) {
+    const Real known = cells * trust * min(Real(1.0f), pairWeight * (1.0f / kTrustedWeight));
     // The tiny addends decide 0 / 0: no pairs, or no light.
     const Real slope = max(rise, Real(0.0f)) * (1.0f / (pairWeight + 1e-20f));
     const Real doubt = kDoubtfulRise * root + 1e-20f;

@@ -3,7 +3,6 @@
 #include <array>
 #include <set>
 
-#include "cpu/wide.h"
 #include "kernels/probe_blend.h"
 #include "kernels/probe_cage.h"
 #include "kernels/probe_neighbours.h"
@@ -198,27 +197,6 @@ TEST(ProbeBlend, encodedBlendFollowsListingOne) {
     EXPECT_NEAR(v.x, 0.9f * std::pow(2.0f, 0.2f) + 0.1f, 1e-6f);
     const vec3 linear = blendLinear(vec3(encodeIrradiance(2.0f)), vec3(1.0f), 0.9f);
     EXPECT_NEAR(decodeIrradiance(linear.x), 1.9f, 1e-5f);
-}
-
-// The eight-lane reading of the kernels is the same text; this shows that it is also the same numbers.
-TEST(Wide, lanesEqualTheScalarKernels) {
-    uint state = 5;
-    const auto random = [&](int) { return 2 * nextRandom(state) - 1; };
-    for (int round = 0; round < 1000; ++round) {
-        std::array<float, 8> x, y, z;
-        for (int i = 0; i < 8; ++i) x[i] = random(i), y[i] = random(i), z[i] = random(i);
-        const auto load = [](const auto& a) { return wide::Real(a.data(), wide::stdx::element_aligned); };
-        const wide::Real2 oct = wide::octEncode({load(x), load(y), load(z)});
-        const wide::Real chebyshev = wide::chebyshevWeight(load(x), load(y), load(z), kRulesMeasured);
-        const wide::Real crush = wide::crushWeight(load(x));
-        for (int i = 0; i < 8; ++i) {
-            const vec2 expected = octEncode(vec3(x[i], y[i], z[i]));
-            EXPECT_NEAR(oct.x[i], expected.x, 1e-6f);
-            EXPECT_NEAR(oct.y[i], expected.y, 1e-6f);
-            EXPECT_NEAR(chebyshev[i], chebyshevWeight(x[i], y[i], z[i], kRulesMeasured), 1e-5f);
-            EXPECT_NEAR(crush[i], crushWeight(x[i]), 1e-4f);
-        }
-    }
 }
 
 }  // namespace

@@ -1,0 +1,146 @@
+// The query several points abreast, with every instruction set that this processor has, against the same kernels one
+// point and one probe at a time.
+#include <gtest/gtest.h>
+
+#include <hwy/highway.h>
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "cpu/probe_query.h"
+#include "kernels/storage.h"
+#include "scalar_query.h"
+
+namespace probegi {
+namespace {
+
+// A field of random light, random distances and some probes in walls.
+class RandomField {
+public:
+    RandomField(LeakGuard guard, FieldRules rules, int visibilityTexels) {
+        m_desc.grid = {.origin = {-1, 2, -3}, .spacing = {1.0f, 0.5f, 0.75f}, .counts = {5, 6, 4}};
+        m_desc.guard = guard;
+        m_desc.rules = rules;
+        m_desc.irradianceTexels = 8;
+        m_desc.visibilityTexels = visibilityTexels;
+        const std::size_t probes = 5 * 6 * 4;
+        std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+        m_irradiance.resize(probes * 64 * 3 + 1);
+        for (std::size_t p = 0; p < probes; ++p) {
+            const float light = unit(m_random) < 0.1f ? 0.0f : 4 * unit(m_random);
+            for (std::size_t t = 0; t < 64 * 3; ++t)
+                m_irradiance[p * 64 * 3 + t] =
+                    std::uint16_t(kernels::packHalfDithered(light * (0.8f + 0.2f * unit(m_random)), 0));
+            m_backfaceShare.push_back(unit(m_random) < 0.2f ? 0.2f + 0.2f * unit(m_random) : 0.0f);
+        }
+        for (std::size_t t = 0; t < probes * std::size_t(visibilityTexels * visibilityTexels); ++t) {
+            const float mean = 0.1f + 0.6f * unit(m_random);
+            const float square = mean * mean * (1.0f + 0.1f * unit(m_random));
+            m_visibility.push_back(kernels::packUnorm16Dithered(mean, 0) | kernels::packUnorm16Dithered(square, 0)
+                                                                               << 16);
+        }
+    }
+
+    FieldView view() {
+        FieldView view;
+        view.desc = &m_desc;
+        view.probes = m_backfaceShare.size();
+        view.irradiance = m_irradiance.data();
+        view.visibility = m_visibility.data();
+        view.backfaceShare = m_backfaceShare.data();
+        view.irradianceTaps = &m_irradianceTaps;
+        view.visibilityTaps = &m_visibilityTaps;
+        view.inverseSpacing = 1.0f / m_desc.grid.spacing;
+        view.minSpacing = 0.5f;
+        view.inverseMaxDistance = 0.4f;
+        return view;
+    }
+
+    // In the grid and around it; a third of the normals along an axis.
+    std::vector<FieldQuery> points(std::size_t count) {
+        std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
+        const auto direction = [&] {
+            return glm::normalize(glm::vec3(unit(m_random), unit(m_random), unit(m_random)));
+        };
+        std::vector<FieldQuery> points;
+        for (std::size_t i = 0; i < count; ++i) {
+            const glm::vec3 place(unit(m_random), unit(m_random), unit(m_random));
+            glm::vec3 normal = direction();
+            if (i % 3 == 0) {
+                const int axis = int(i / 3 % 3);
+                normal = glm::vec3(0.0f);
+                normal[axis] = i % 2 == 0 ? 1.0f : -1.0f;
+            }
+            points.push_back({glm::vec3(1, 3.25f, -1.9f) + place * glm::vec3(2.5f, 1.8f, 1.6f), normal, direction()});
+        }
+        return points;
+    }
+
+    FieldDesc& desc() { return m_desc; }
+    std::vector<float>& backfaceShare() { return m_backfaceShare; }
+
+private:
+    std::mt19937 m_random{7};
+    FieldDesc m_desc;
+    std::vector<std::uint16_t> m_irradiance;
+    std::vector<std::uint32_t> m_visibility;
+    std::vector<float> m_backfaceShare;
+    TapTable m_irradianceTaps = makeTapTable(8), m_visibilityTaps;
+
+public:
+    void makeVisibilityTaps() { m_visibilityTaps = makeTapTable(m_desc.visibilityTexels); }
+};
+
+void expectScalarAnswers(RandomField& field, const char* what) {
+    field.makeVisibilityTaps();
+    const std::vector<FieldQuery> points = field.points(997);  // not a multiple of any number of lanes
+    std::vector<glm::vec3> abreast(points.size()), scalar(points.size());
+    bench::queryScalar(field.view(), points, scalar);
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        hwy::SetSupportedTargetsForTest(target);
+        std::fill(abreast.begin(), abreast.end(), glm::vec3(-1.0f));
+        queryIrradiance(field.view(), points, abreast);
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const glm::vec3 bound = 2e-4f * scalar[i] + 1e-6f;
+            const glm::vec3 difference = glm::abs(abreast[i] - scalar[i]);
+            wrong += difference.x <= bound.x && difference.y <= bound.y && difference.z <= bound.z ? 0 : 1;
+        }
+        EXPECT_EQ(wrong, 0u) << what << " with " << hwy::TargetName(target);
+    }
+    hwy::SetSupportedTargetsForTest(0);
+}
+
+TEST(QueryLanes, answerAsOnePointAtATime) {
+    for (const FieldRules rules : {FieldRules::measured, FieldRules::paper})
+        for (const LeakGuard guard : {LeakGuard::moments, LeakGuard::none})
+            for (const int texels : {16, 8}) {
+                RandomField field(guard, rules, texels);
+                expectScalarAnswers(field, rules == FieldRules::paper ? "the paper's rules" : "the measured rules");
+            }
+}
+
+// All cages in walls: every answer comes from farther away, or is black.
+TEST(QueryLanes, answersFromFartherAwayAsOneAtATime) {
+    RandomField field(LeakGuard::moments, FieldRules::measured, 16);
+    for (std::size_t i = 0; i < field.backfaceShare().size(); ++i) field.backfaceShare()[i] = i % 7 == 0 ? 0.27f : 1.0f;
+    expectScalarAnswers(field, "probes in walls");
+}
+
+// Blocks of points share nothing: each is answered as alone.
+TEST(QueryLanes, aPointsNeighboursDoNotMatter) {
+    RandomField field(LeakGuard::moments, FieldRules::measured, 16);
+    field.makeVisibilityTaps();
+    const std::vector<FieldQuery> points = field.points(300);
+    std::vector<glm::vec3> together(points.size());
+    queryIrradiance(field.view(), points, together);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        glm::vec3 alone;
+        queryIrradiance(field.view(), {&points[i], 1}, {&alone, 1});
+        EXPECT_EQ(alone, together[i]) << i;
+    }
+}
+
+}  // namespace
+}  // namespace probegi
