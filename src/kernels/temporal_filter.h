@@ -31,6 +31,10 @@ KERNEL_CONST float kWindowGrowth = 0.5f;
 KERNEL_CONST float kDarkShare = 0.05f;
 // Share of a neighbour's lag that a probe takes for its own.
 KERNEL_CONST float kSpreadLag = 0.5f;
+// What a lag of the bounced light counts for. It comes back with the next bounce, and again: where surfaces reflect two
+// thirds, three times as much in the end. Taken as it is, a room of many bounces keeps a tenth of a small change for
+// twice as long (docs/accuracy.md), with the same flicker.
+KERNEL_CONST float kBounceLag = 3.0f;
 // Where an update's change is below this multiple of the lag's square, it says nothing of noise.
 KERNEL_CONST float kLagInChange = 4.0f;
 // Updates over which noise is averaged.
@@ -194,7 +198,7 @@ KERNEL_FN float lagBeyondNoise(float lag, float noise) {
 
 // The lag of a probe's irradiance, as a share of it.
 KERNEL_FN float filterLag(LagAround around, float noise, bool ownRays) {
-    const float bounced = around.bounced / max(around.level, 1e-30f);
+    const float bounced = kBounceLag * around.bounced / max(around.level, 1e-30f);
     const float lag = sqrt(around.direct * around.direct + bounced * bounced);
     return ownRays ? lagBeyondNoise(lag, noise) : lag;
 }

@@ -88,6 +88,12 @@ TEST(TemporalFilter, bouncedNoiseOfNeighboursCancels) {
     EXPECT_NEAR(filterLag(around, 0.1f, false), 0.0f, 1e-6f);
 }
 
+// Bounced light that lags by a per cent of the light will lag by three when all bounces have passed it on.
+TEST(TemporalFilter, bouncedLagCountsWithItsLaterBounces) {
+    const ProbeLag lag = probeLag(evenSight(3, 0.9f, 0.5f), settled(3, 1, 50));
+    EXPECT_NEAR(filterLag(alone(lag), 0.1f, false), kBounceLag * 0.1f / 4.0f, 1e-4f);
+}
+
 // Lag is as large as the noise that an average of that window has left: lag^2 = noise^2 / (2 window).
 TEST(TemporalFilter, windowsBalanceLagAndNoise) {
     EXPECT_FLOAT_EQ(nextWindow(100, 0.4f, 0.1f, 200), 8.0f);
