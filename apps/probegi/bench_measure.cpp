@@ -24,10 +24,10 @@ double millisecondsSince(Clock::time_point start) {
 std::vector<Ray> probeRays(const Field& field) {
     const GridDesc& grid = field.desc().grid;
     std::vector<Ray> rays;
-    rays.reserve(std::size_t(probeCount(grid)) * field.rayDirections().size());
+    rays.reserve(std::size_t(probeCount(grid)) * (field.rayDirections().size() + field.fixedRayDirections().size()));
     for (int probe = 0; probe < probeCount(grid); ++probe)
-        for (const glm::vec3& direction : field.rayDirections())
-            rays.push_back({probePosition(grid, probe), 0.0f, direction});
+        for (const std::span<const glm::vec3> directions : {field.rayDirections(), field.fixedRayDirections()})
+            for (const glm::vec3& direction : directions) rays.push_back({probePosition(grid, probe), 0.0f, direction});
     return rays;
 }
 
@@ -135,6 +135,7 @@ BenchResult Bench::facts() const {
     result.threads = m_all.threads();
     result.probes = probeCount(m_setup.grid);
     result.raysPerProbe = m_plan.raysPerProbe;
+    result.fixedRays = int(m_field->fixedRayDirections().size());
     result.triangles = triangleCount(*m_setup.scene, m_setup.pose);
     result.points = m_points.size();
     result.pixels = m_primary.size();

@@ -43,13 +43,15 @@ struct BenchGrowth {
 struct BenchResult {
     int threads = 0;  ///< as asked for
     int probes = 0, raysPerProbe = 0;
+    int fixedRays = 0;                      ///< a probe, besides those: the temporal filter's
     std::size_t triangles = 0, points = 0;  ///< of the scene; where the picture's rays hit it
     std::size_t pixels = 0;
     std::size_t persistentBytes = 0, scratchBytes = 0;
     std::vector<BenchRound> rounds;
     std::vector<BenchGrowth> growth;
 
-    double rays() const { return double(probes) * raysPerProbe; }
+    /// Of one update.
+    double rays() const { return double(probes) * (raysPerProbe + fixedRays); }
     /// Median over the rounds of something about a round.
     double median(const std::function<double(const BenchRound&)>& value) const;
 };

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
+#include <string_view>
 
 #include "probegi/context.h"
 #include "probegi/grid.h"
@@ -79,6 +80,10 @@ struct FieldQuery {
     glm::vec3 normal{0, 1, 0};    ///< unit
     glm::vec3 toViewer{0, 1, 0};  ///< unit, omega_o of eq. 2; use the normal where there is no viewer
 };
+
+/// The instructions that the hot loops of CPU fields run with on this processor, as Highway names them: SSE4, AVX2,
+/// AVX3 (AVX-512), NEON... Chosen when the program runs.
+std::string_view instructionSet() noexcept;
 
 /// Wall-clock milliseconds of one update. Stages overlap nothing; total includes what is in none of them.
 struct UpdateTimes {

@@ -37,8 +37,7 @@ HWY_INLINE void multiplyTile(const float* HWY_RESTRICT left, const float* HWY_RE
                 sums[r][v] = hn::MulAdd(hn::Set(kFloats, left[r * shape.terms + k]), b, sums[r][v]);
         }
     for (std::size_t r = 0; r < rows; ++r)
-        for (std::size_t v = 0; v < vectors; ++v)
-            hn::StoreU(sums[r][v], kFloats, out + r * shape.columns + v * kLanes);
+        for (std::size_t v = 0; v < vectors; ++v) hn::StoreU(sums[r][v], kFloats, out + r * shape.columns + v * kLanes);
 }
 
 /// `rows` rows of the result.

@@ -304,6 +304,10 @@ void answerFromCages(const FieldView& view, std::span<const FieldQuery> queries,
     return answerBy<kernels::kRulesMeasured>(view, queries, out);
 }
 
+std::string_view instructionSetHere() {
+    return hwy::TargetName(HWY_TARGET);
+}
+
 }  // namespace probegi::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -311,9 +315,14 @@ HWY_AFTER_NAMESPACE();
 namespace probegi {
 
 HWY_EXPORT(answerFromCages);
+HWY_EXPORT(instructionSetHere);
 
 void answerFromCages(const FieldView& view, std::span<const FieldQuery> queries, CageAnswer* out) {
     HWY_DYNAMIC_DISPATCH(answerFromCages)(view, queries, out);
+}
+
+std::string_view instructionSet() noexcept {
+    return HWY_DYNAMIC_DISPATCH(instructionSetHere)();
 }
 
 }  // namespace probegi

@@ -142,5 +142,13 @@ TEST(QueryLanes, aPointsNeighboursDoNotMatter) {
     }
 }
 
+TEST(QueryLanes, saysWhatItRunsWith) {
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        hwy::SetSupportedTargetsForTest(target);
+        EXPECT_EQ(instructionSet(), hwy::TargetName(target));
+    }
+    hwy::SetSupportedTargetsForTest(0);
+}
+
 }  // namespace
 }  // namespace probegi
