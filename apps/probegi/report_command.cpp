@@ -33,7 +33,8 @@ struct ReportOptions {
 const char* const kFooter =
     R"(Writes DIR/report.html, one page that needs nothing else, and beside it the pictures as PNG and EXR and the numbers
 as report.json. The page begins with a verdict: whether the field matches the reference, where it leaks, or that the
-reference is too noisy to tell. All cameras of a scene are drawn, unless --camera or --look-from names one. Options apply
+reference is too noisy to tell. All cameras of a scene are drawn, all but the first at half the size, unless --camera
+or --look-from names one. Options apply
 to all scenes; the reference is path traced on the CPU whatever the backend. Errors are measured on light that clips at
 white, whatever the pictures are shown with.
 
@@ -175,8 +176,10 @@ void addReportOptions(CLI::App& command, ReportOptions& options) {
         ->check(parsedBy(parseSize))
         ->capture_default_str();
     command
-        .add_option("--time", options.seconds,
-                    fmt::format("reference: seconds a camera (default {} without --spp)", options.settings.seconds))
+        .add_option(
+            "--time", options.seconds,
+            fmt::format("reference: seconds for the first camera, a quarter for each other (default {} without --spp)",
+                        options.settings.seconds))
         ->type_name("SECONDS")
         ->check(inRange(0.001, 1e6));
     command.add_option("--spp", options.samplesPerPixel, "reference: samples a pixel")

@@ -25,6 +25,9 @@ Result<std::string> readBytes(const std::filesystem::path& path) {
     return bytes;
 }
 
+// For what is no light: no exposure, and no dither, which makes files large.
+constexpr ToneMap kPlain{.exposure = 1, .filmic = false, .dither = false};
+
 /// The bytes of a picture as a PNG, which also stays in the folder where `keep`.
 Result<std::string> pngBytes(const ReportPlace& place, const std::string& name, const HdrImage& image,
                              const ToneMap& display, bool keep) {
@@ -38,7 +41,7 @@ Result<std::string> pngBytes(const ReportPlace& place, const std::string& name, 
 
 /// A picture to look at, and the values behind it.
 struct Shown {
-    ReportPicture text;  ///< all but bytes
+    ReportPicture text;  ///< all but bytes; without a unit its values are not told
     const HdrImage& image;
     ToneMap display;
     const HdrImage& values;
@@ -48,10 +51,10 @@ Result<ReportPicture> keepPicture(const ReportPlace& place, const std::string& v
     ReportPicture picture = shown.text;
     auto png = pngBytes(place, view + picture.id, shown.image, shown.display, true);
     if (!png) return tl::unexpected(png.error());
-    auto values =
-        pngBytes(place, view + picture.id + "-values", halfFloatPlanes(shown.values), {1, false, false}, false);
-    if (!values) return tl::unexpected(values.error());
     picture.png = std::move(*png);
+    if (picture.unit.empty()) return picture;
+    auto values = pngBytes(place, view + picture.id + "-values", halfFloatPlanes(shown.values), kPlain, false);
+    if (!values) return tl::unexpected(values.error());
     picture.values = std::move(*values);
     return picture;
 }
@@ -102,8 +105,8 @@ Result<ReportPicture> flipPicture(const ReportPlace& place, const std::string& p
         .title = title,
         .caption = caption,
         .alt = fmt::format("{}: map of visible differences from the reference, {}", place.title, title),
-        .unit = "FLIP"};
-    return keepPicture(place, prefix, {text, linearFromDisplay(heatmap(map)), {}, map});
+    };
+    return keepPicture(place, prefix, {text, linearFromDisplay(heatmap(map)), kPlain, map});
 }
 
 Result<ReportPicture> leakPicture(const ReportPlace& place, const std::string& prefix, const LeakMap& leaks) {
@@ -116,7 +119,7 @@ Result<ReportPicture> leakPicture(const ReportPlace& place, const std::string& p
                                kLeakRatio, leaks.leaks, leaks.tiles),
         .alt = fmt::format("{}: map of places where the field leaks", place.title),
         .unit = "times the reference's indirect light"};
-    return keepPicture(place, prefix, {text, leaks.picture, {}, leaks.ratio});
+    return keepPicture(place, prefix, {text, leaks.picture, kPlain, leaks.ratio});
 }
 
 Result<std::vector<ReportPicture>> mapsOf(const RenderedView& view, const LeakMap& leaks, const ReportPlace& place,
@@ -175,6 +178,7 @@ ViewFacts factsOf(const RenderedView& view, const LeakMap& leaks, std::size_t nu
             view.noiseFloor,
             view.referenceSeconds,
             leaks.leaks,
+            leaks.tiles,
             leaks.worst};
 }
 
@@ -197,7 +201,7 @@ Result<void> describeProbes(const RenderedScene& scene, const ReportPlace& place
                           .caption = "Every probe that the camera sees; those in walls shine through.",
                           .alt = fmt::format("{}: the probes, coloured by their state", place.title)};
     auto png = pngBytes(place, "probes",
-                        drawProbes(scene.ddgi.picture, scene.exposure, scene.camera, scene.grid, states), {}, true);
+                        drawProbes(scene.ddgi.picture, scene.exposure, scene.camera, scene.grid, states), kPlain, true);
     if (!png) return tl::unexpected(png.error());
     picture.png = std::move(*png);
     section.probes.push_back(std::move(picture));

@@ -1,5 +1,6 @@
 #include "report_render.h"
 
+#include <algorithm>
 #include <chrono>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -21,11 +22,13 @@ private:
     std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
 };
 
-PictureDesc pictureDesc(const PlacedCamera& camera, const ReportSettings& settings) {
+constexpr int kOthersShrink = 2;  // of cameras but the first
+
+PictureDesc pictureDesc(const RenderedView& view, const ReportSettings& settings) {
     PictureDesc desc;
-    desc.camera = camera;
-    desc.width = settings.width;
-    desc.height = settings.height;
+    desc.camera = view.camera;
+    desc.width = std::max(1, settings.width / view.shrink);
+    desc.height = std::max(1, settings.height / view.shrink);
     desc.diffuseOnly = settings.diffuseOnly;
     return desc;
 }
@@ -89,9 +92,9 @@ Result<FieldResult> fillField(Field& field, const Tracer& tracer, const Lighting
     return result;
 }
 
-Result<MethodResult> drawMethod(const Studio& studio, const PlacedCamera& camera, const Field* field) {
+Result<MethodResult> drawMethod(const Studio& studio, const RenderedView& view, const Field* field) {
     auto rendered =
-        studio.backend.render(studio.tracer, studio.setup.lighting, field, pictureDesc(camera, studio.settings));
+        studio.backend.render(studio.tracer, studio.setup.lighting, field, pictureDesc(view, studio.settings));
     if (!rendered) return tl::unexpected(rendered.error());
     MethodResult result;
     result.picture = std::move(rendered->picture);
@@ -119,7 +122,7 @@ std::vector<RenderedView*> viewsOf(RenderedScene& scene) {
 Result<void> drawViews(const Studio& studio, RenderedScene& scene, MethodResult RenderedView::*method,
                        const Field* field) {
     for (RenderedView* view : viewsOf(scene)) {
-        auto drawn = drawMethod(studio, view->camera, field);
+        auto drawn = drawMethod(studio, *view, field);
         if (!drawn) return tl::unexpected(drawn.error());
         view->*method = std::move(*drawn);
     }
@@ -167,7 +170,7 @@ Result<FieldPicture> drawRealtime(const Studio& studio, const RenderedScene& sce
     auto filled = fillAndMeasure(studio, scene.truth, *fresh,
                                  {studio.settings.realtimeUpdates, {}, studio.settings.run.progress});
     if (!filled) return tl::unexpected(filled.error());
-    auto drawn = drawMethod(studio, scene.camera, &*fresh);
+    auto drawn = drawMethod(studio, scene, &*fresh);
     if (!drawn) return tl::unexpected(drawn.error());
     return FieldPicture{std::move(*filled), std::move(*drawn)};
 }
@@ -216,8 +219,8 @@ Result<void> drawReference(const PathTracer& pathTracer, const Studio& studio, c
     studio.begin(kReference);
     ReferenceDesc desc;
     desc.guide = &guide;
-    desc.picture = pictureDesc(view.camera, settings);
-    desc.seconds = settings.seconds;
+    desc.picture = pictureDesc(view, settings);
+    desc.seconds = settings.seconds / (view.shrink * view.shrink);
     desc.samplesPerPixel = settings.samplesPerPixel;
     desc.seed = settings.seed;
     auto reference = pathTracer.render(desc);
@@ -256,19 +259,21 @@ std::vector<PlacedCamera> reportCameras(const LoadedSetup& setup, const ReportSe
 
 std::vector<ReportPiece> reportPieces(const LoadedSetup& setup, const ReportSettings& settings) {
     const std::size_t cameras = reportCameras(setup, settings).size();
-    const double pixels = double(settings.width) * settings.height * double(cameras);
+    const double others = double(cameras - 1) / (kOthersShrink * kOthersShrink);
+    const double pixels = double(settings.width) * settings.height * (1 + others);
     const double probes = probeCount(setup.grid);
     const double picture = 1e-6 * pixels, update = 2e-7 * probes * settings.raysPerProbe;
     const double updates = settings.run.frames.value_or(40);
     const double reference =
-        settings.seconds > 0 ? settings.seconds : 2e-6 * pixels / double(cameras) * settings.samplesPerPixel;
+        settings.seconds > 0 ? settings.seconds : 2e-6 * settings.width * settings.height * settings.samplesPerPixel;
     std::vector<ReportPiece> pieces{{kSetUp, 1e-6 * double(triangleCount(*setup.scene, setup.pose))},
                                     {kProbeTruth, 2e-5 * settings.ratioProbes * settings.ratioSamples},
                                     {kWithout, picture},
                                     {kLeakyField, updates * update + picture},
                                     {kField, updates * update + picture}};
     if (settings.realtimeUpdates) pieces.push_back({kRealtime, *settings.realtimeUpdates * update + picture});
-    for (std::size_t camera = 0; camera < cameras; ++camera) pieces.push_back({kReference, reference});
+    for (std::size_t camera = 0; camera < cameras; ++camera)
+        pieces.push_back({kReference, camera == 0 ? reference : reference / (kOthersShrink * kOthersShrink)});
     pieces.push_back({kComparing, 4e-6 * pixels});
     return pieces;
 }
@@ -279,6 +284,7 @@ Result<RenderedScene> renderForReport(const Context& context, const Backend& bac
     const std::vector<PlacedCamera> cameras = reportCameras(setup, settings);
     scene.others.resize(cameras.size() - 1);
     for (std::size_t i = 0; i < cameras.size(); ++i) viewsOf(scene)[i]->camera = cameras[i];
+    for (RenderedView& view : scene.others) view.shrink = kOthersShrink;
     scene.triangles = triangleCount(*setup.scene, setup.pose);
     scene.lights = setup.lighting.lights.size();
     scene.grid = setup.grid;

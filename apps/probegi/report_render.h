@@ -27,7 +27,7 @@ struct ReportSettings {
     int ratioProbes = 128;               ///< probes that are compared with the reference
     int ratioSamples = 256;              ///< paths per probe and direction
     std::uint64_t seed = 1;
-    bool allCameras = false;  ///< draw the scene's other cameras too
+    bool allCameras = false;  ///< draw the scene's other cameras too, at half the size
     /// Called before each piece of work, in the order of reportPieces(). Empty: nobody wants to know.
     std::function<void(const std::string& piece)> onPiece{};
 };
@@ -71,6 +71,7 @@ struct FieldPicture {
 /// One camera's pictures.
 struct RenderedView {
     PlacedCamera camera;
+    int shrink = 1;      ///< the pictures' sides are the report's over this; the reference's time is over its square
     float exposure = 1;  ///< at which the pictures are shown and their errors measured
     MethodResult none, leaky, ddgi;
     Picture reference;

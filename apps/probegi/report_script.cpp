@@ -136,16 +136,15 @@ for (const view of document.querySelectorAll(".view")) {
     view.dataset.shown = wanted;
   }
 
-  function told() {
+  function tell() {
     wanted = Number(range.value);
     const stops = wanted === 0 ? "as made" : (wanted > 0 ? "+" : "\u2212") + Math.abs(wanted).toFixed(1) + " stops";
     output.textContent = "\u00d7 " + Number((made * 2 ** wanted).toPrecision(3)) + " (" + stops + ")";
-    return apply();
   }
 
-  range.addEventListener("input", told);
-  reset.addEventListener("click", () => { range.value = 0; told(); });
-  told();
+  range.addEventListener("input", () => { tell(); apply(); });
+  reset.addEventListener("click", () => { range.value = 0; tell(); apply(); });
+  tell();
 }
 
 const dialog = document.getElementById("pixels");
@@ -153,6 +152,8 @@ const canvas = dialog.querySelector("canvas");
 const says = dialog.querySelector("output");
 const kQuiet = says.textContent;
 let open = null;
+
+const titleOf = (image) => image.closest("figure").querySelector("strong").textContent.replace(/\.$/, "");
 
 function zoom(factor) {
   canvas.style.width = canvas.width * factor + "px";
@@ -176,8 +177,7 @@ async function point(event) {
   const lines = image.dataset.values ? ["x " + x + ", y " + y + ": " + reading(image, await valuesOf(image), x, y)] : [];
   const rest = [];
   for (const other of others)
-    rest.push(other.closest("figure").querySelector("strong").textContent + " " +
-      reading(other, await valuesOf(other), x, y));
+    rest.push(titleOf(other) + " " + reading(other, await valuesOf(other), x, y));
   if (open === image) says.textContent = [...lines, rest.join("  \u00b7  ")].join("\n");
 }
 
@@ -187,7 +187,7 @@ for (const button of document.querySelectorAll(".zoom"))
     canvas.width = open.naturalWidth;
     canvas.height = open.naturalHeight;
     canvas.getContext("2d").drawImage(open, 0, 0);
-    dialog.querySelector("strong").textContent = button.closest("figure").querySelector("strong").textContent;
+    dialog.querySelector("strong").textContent = titleOf(open);
     says.textContent = kQuiet;
     zoom(1);
     dialog.showModal();

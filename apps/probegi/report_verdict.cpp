@@ -9,6 +9,7 @@ namespace probegi::tool {
 
 namespace {
 
+constexpr double kLeakShare = 0.0025;  // of places: what a leaf here and there does not reach
 constexpr double kMeanWithin = 0.05, kPartsWithin = 0.15;
 // FLIP that an exact picture may score before the reference cannot judge, and what a better one should bring it to.
 constexpr double kNoisyFlip = 0.05, kGoodFlip = 0.025;
@@ -25,7 +26,7 @@ bool matches(const ViewFacts& view) {
 }
 
 Judgement judgementOf(const ViewFacts& view) {
-    if (view.leaks > 0) return Judgement::leaks;
+    if (view.leaks > kLeakShare * view.places) return Judgement::leaks;
     if (tooNoisy(view)) return Judgement::noisy;
     return matches(view) ? Judgement::matches : Judgement::differs;
 }
@@ -34,7 +35,7 @@ Judgement judgementOf(const ViewFacts& view) {
 double severity(const ViewFacts& view, Judgement judgement) {
     switch (judgement) {
         case Judgement::leaks:
-            return view.leaks;
+            return double(view.leaks) / view.places;
         case Judgement::noisy:
             return view.exact.flip;
         case Judgement::differs:
@@ -63,9 +64,10 @@ std::string sentenceOf(const ViewFacts& view, Judgement judgement) {
     switch (judgement) {
         case Judgement::leaks:
             return fmt::format(
-                "Leaks here{}: {} of the picture up to {:.2g} times the light that is there; the leak map marks them "
-                "in red.",
-                in(view), view.leaks == 1 ? "one place" : fmt::format("{} places", view.leaks), view.worstLeak);
+                "Leaks here{}: {} of {} places in the picture have up to {:.2g} times the light that is there; the "
+                "leak "
+                "map marks them in red.",
+                in(view), view.leaks, view.places, view.worstLeak);
         case Judgement::noisy:
             return fmt::format(
                 "Reference too noisy{}: an exact picture would score {:.3f} of the field's {:.3f} (FLIP); make it "
@@ -73,17 +75,15 @@ std::string sentenceOf(const ViewFacts& view, Judgement judgement) {
                 in(view), view.exact.flip, view.field.flip, enoughSeconds(view));
         case Judgement::differs:
             return fmt::format(
-                "Differs{}: the picture has {:.3f} times the reference's light, its parts {:.2f} to {:.2f} times; no "
-                "place leaks.",
+                "Differs{}: the picture has {:.3f} times the reference's light, its parts {:.2f} to {:.2f} times.",
                 in(view), ratio.mean, ratio.low, ratio.high);
         case Judgement::matches:
             break;
     }
     if (ratio.blocks == 0) return fmt::format("Matches{}: both are black.", in(view));
     return fmt::format(
-        "Matches{}: the picture has {:.3f} times the reference's light, its parts {:.2f} to {:.2f} times, and no place "
-        "leaks.",
-        in(view), ratio.mean, ratio.low, ratio.high);
+        "Matches{}: the picture has {:.3f} times the reference's light, its parts {:.2f} to {:.2f} times.", in(view),
+        ratio.mean, ratio.low, ratio.high);
 }
 
 }  // namespace

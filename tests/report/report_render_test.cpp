@@ -43,9 +43,8 @@ TEST(ReportRender, PiecesAreThosePlannedAndEveryCameraIsDrawn) {
     EXPECT_EQ(scene->others.back().camera.name, "another");
     EXPECT_EQ(scene->probes.size(), 64u);
     for (const RenderedView& view : scene->others) {
-        EXPECT_EQ(view.reference.color.width, 32);
-        EXPECT_EQ(view.ddgi.picture.color.width, 32);
-        EXPECT_NE(view.reference.color.pixels, scene->reference.color.pixels);
+        EXPECT_EQ(view.reference.color.width, 16) << "half the size";
+        EXPECT_EQ(view.ddgi.picture.color.width, 16);
         EXPECT_EQ(view.exposure, autoExposure(view.reference.color));
         EXPECT_GT(view.none.whole.difference.flip, 0);
     }

@@ -16,6 +16,7 @@ ViewFacts good(const char* camera = "") {
     view.exact.flip = 0.01;
     view.exact.ratio = {1, 0.99, 1, 1.01, 40};
     view.referenceSeconds = 45;
+    view.places = 1000;
     return view;
 }
 
@@ -69,15 +70,16 @@ TEST(Verdict, LeaksComeFirst) {
     view.worstLeak = 4.26;
     const Verdict verdict = of(view);
     EXPECT_EQ(verdict.judgement, Judgement::leaks);
-    EXPECT_THAT(verdict.sentence, HasSubstr("Leaks here: 3 places"));
+    EXPECT_THAT(verdict.sentence, HasSubstr("Leaks here: 3 of 1000 places"));
     EXPECT_THAT(verdict.sentence, HasSubstr("up to 4.3 times"));
-    view.leaks = 1;
-    EXPECT_THAT(of(view).sentence, HasSubstr("one place"));
+    view.exact.flip = 0.01;
+    view.leaks = 2;  // a leaf here and there
+    EXPECT_EQ(of(view).judgement, Judgement::matches);
 }
 
 TEST(Verdict, TheWorstOfAllCameras) {
     ViewFacts leaking = good("cellar"), worse = good("attic"), off = good("hall");
-    leaking.leaks = 2;
+    leaking.leaks = 4;
     worse.leaks = 9;
     off.field.ratio.mean = 3;
     const ViewFacts views[] = {good("door"), leaking, worse, off};
