@@ -11,7 +11,12 @@ namespace {
 
 constexpr PlacedLight kLamp{.type = LightType::point, .position = {-2, 2.5f, 0.5f}, .intensity = {30, 30, 30}};
 constexpr float kOpen = 1.4f;  // radians
-constexpr int kSwing = 30, kRest = 90;
+constexpr int kSwing = 30, kRest = 30;
+
+/// As .value() of a Result that has one: throws where it failed.
+void must(const Result<void>& done) {
+    if (!done) throw tl::bad_expected_access<Error>(done.error());
+}
 
 struct World {
     House house;
@@ -28,7 +33,7 @@ struct World {
     }
     Field makeField() {
         FieldDesc desc;
-        desc.grid = placeGrid(house.poseWithDoor(0).bounds, {.targetProbes = 3000}).value();
+        desc.grid = placeGrid(house.poseWithDoor(0).bounds, {.targetProbes = 2000}).value();
         return Field::create(context, desc).value();
     }
 };
@@ -37,7 +42,7 @@ struct World {
 float secondRoom(const World& world) {
     const std::vector<FieldQuery> points = world.house.secondRoom();
     std::vector<glm::vec3> answers(points.size());
-    world.field.irradiance(points, answers).value();
+    must(world.field.irradiance(points, answers));
     float sum = 0;
     for (const glm::vec3& e : answers) sum += e.y;
     return sum / float(points.size());
@@ -48,8 +53,9 @@ float truthOfSecondRoom(const World& world, float angle) {
     const auto reference =
         PathTracer::create(world.context, world.house.scene, pose, *world.tracer, world.lighting).value();
     const std::vector<FieldQuery> points = world.house.secondRoom();
+    const std::vector<ReferenceIrradiance> answers = reference.irradiance(points, 500).value();
     float sum = 0;
-    for (const ReferenceIrradiance& e : reference.irradiance(points, 500).value()) sum += e.mean.y;
+    for (const ReferenceIrradiance& e : answers) sum += e.mean.y;
     return sum / float(points.size());
 }
 
@@ -61,7 +67,7 @@ double playFrames(World& world, float from, float to) {
         if (frame <= kSwing) {
             const float angle = from + (to - from) * float(frame) / float(kSwing);
             const auto start = Clock::now();
-            world.tracer->setPose(world.house.poseWithDoor(angle)).value();
+            must(world.tracer->setPose(world.house.poseWithDoor(angle)));
             moving += std::chrono::duration<double, std::milli>(Clock::now() - start).count();
             world.field.notify(FieldEvent::largeObjectChange);
         }

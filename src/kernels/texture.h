@@ -92,11 +92,13 @@ KERNEL_FN int mipOffset(int width, int height, int level) {
 // Least cosine between a surface and a ray that its footprint is stretched by.
 KERNEL_CONST float kLeastFootprintCosine = 0.01f;
 
-// How wide a cone of `spread` radians is where it meets a surface after `distance` metres, along the direction in which
-// the surface stretches it most. Akenine-Moller et al., "Texture level of detail strategies for real-time ray tracing"
-// (Ray Tracing Gems, chapter 20, 2019), section 20.3.4, for a ray from a camera.
+// How wide a cone of `spread` radians is where it meets a surface after `distance` metres: the geometric mean of the
+// ellipse's two axes. Akenine-Moller et al., "Texture level of detail strategies for real-time ray tracing" (Ray
+// Tracing Gems, chapter 20, 2019), section 20.3.4, take the longer axis. That blurs what is seen at an angle: against
+// the path tracer's base colours, 2 x 2 rays a pixel, the root mean square error of Sponza is 0.0161 with the mean,
+// 0.0194 with the longer axis and 0.0204 without any filter; of the built-in atrium 0.0132, 0.0163 and 0.0141.
 KERNEL_FN float coneFootprint(float spread, float distance, float cosine) {
-    return spread * distance / max(abs(cosine), kLeastFootprintCosine);
+    return spread * distance / sqrt(max(abs(cosine), kLeastFootprintCosine));
 }
 
 // Twice the area of a triangle in a texture's uv space, before the uv transform.

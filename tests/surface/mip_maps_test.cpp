@@ -97,7 +97,7 @@ TEST(FootprintLevel, OneTexelIsLevelZeroAndDoublingIsOneMore) {
     EXPECT_NEAR(level(1e-3f, 2, -1), first, 1e-4f);
     EXPECT_NEAR(level(2e-3f, 2, 1), first + 1, 1e-4f);
     EXPECT_NEAR(level(1e-3f, 8, 1), first + 2, 1e-4f);
-    EXPECT_NEAR(level(1e-3f, 2, 0.125f), first + 3, 1e-4f);
+    EXPECT_NEAR(level(1e-3f, 2, 0.0625f), first + 2, 1e-4f) << "sixteen times as long, no wider";
     EXPECT_EQ(level(1e-3f, 1, 1), 0) << "magnified";
     EXPECT_EQ(level(0, 1, 1), 0);
     EXPECT_EQ(level(1, 1e6f, 1), 9) << "the coarsest";
