@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures on this machine and puts the table between the marks <!-- bench:begin --> and <!-- bench:end --> of README.md
-# and docs/performance.md. Timings mean something only while nothing else runs.
+# Measures on this machine and puts the tables between the marks <!-- bench:begin --> and <!-- bench:end --> of
+# docs/performance.md, and what a newcomer asks first of README.md. Timings mean something only while nothing else runs.
 set -euo pipefail
 
 usage() {
@@ -34,18 +34,33 @@ if (($# == 0)) && [[ -f $sponza ]]; then
     set -- "$sponza" --sky 0.6,0.8,1.2 --probes 22x14x32 --rays 144 --threads 2 --growth-million
 fi
 table=$(mktemp)
-trap 'rm -f "$table"' EXIT
+trap 'rm -f "$table" "$table.short"' EXIT
 build/demo/apps/probegi/probegi bench "$@" | tee "$table"
 
-for page in README.md docs/performance.md; do
-    if ! grep -q '^<!-- bench:begin -->$' "$page" || ! grep -q '^<!-- bench:end -->$' "$page"; then
-        echo "bench.sh: $page has no lines <!-- bench:begin --> and <!-- bench:end -->; add them where the table belongs." >&2
+# Of the whole table what a newcomer asks first: what an update, a query and a picture take, and how much memory.
+short_table() {
+    awk -F ' *[|] *' '
+        !/^[|]/ && !told { print; told = /./ }
+        /^$/ && told == 1 { print; told = 2 }
+        $2 == "measured" || $2 ~ /^(update: all|query of|picture: |memory a probe)/ { printf "| %s | %s |\n", $2, $3 }
+        $2 == "measured" { print "|---|---|" }
+    ' "$1"
+}
+
+# put TABLE PAGE: between the page's marks.
+put() {
+    if ! grep -q '^<!-- bench:begin -->$' "$2" || ! grep -q '^<!-- bench:end -->$' "$2"; then
+        echo "bench.sh: $2 has no lines <!-- bench:begin --> and <!-- bench:end -->; add them where the table belongs." >&2
         exit 1
     fi
-    awk -v table="$table" '
+    awk -v table="$1" '
         $0 == "<!-- bench:end -->" { inside = 0 }
         !inside { print }
         $0 == "<!-- bench:begin -->" { inside = 1; while ((getline line < table) > 0) print line; close(table) }
-    ' "$page" >"$page.new"
-    mv "$page.new" "$page"
-done
+    ' "$2" >"$2.new"
+    mv "$2.new" "$2"
+}
+
+put "$table" docs/performance.md
+short_table "$table" >"$table.short"
+put "$table.short" README.md

@@ -1,10 +1,14 @@
 #include "aov.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <numbers>
 
 #include "probegi/compare.h"
+#include "terminal.h"
 
 namespace probegi::tool {
 
@@ -30,10 +34,6 @@ const HdrImage& layerOf(const Picture& picture, Aov aov) {
     return picture.color;
 }
 
-bool isLight(Aov aov) {
-    return aov == Aov::color || aov == Aov::direct || aov == Aov::indirect || aov == Aov::irradiance;
-}
-
 HdrImage displayNormals(HdrImage normals) {
     for (glm::vec3& n : normals.pixels) n = glm::clamp(0.5f + 0.5f * n, 0.0f, 1.0f);
     return linearFromDisplay(normals);
@@ -46,6 +46,29 @@ HdrImage displayDepth(HdrImage depth) {
     return linearFromDisplay(depth);
 }
 
+// Of the brightest channel: below it a pixel is black to most eyes and screens.
+constexpr float kNearBlack = 0.03f;
+constexpr double kMostlyBlack = 0.9;
+
+void warnWhereNearlyBlack(const std::string& path, const HdrImage& layer, const ToneMap& toneMap) {
+    const auto dark = std::count_if(layer.pixels.begin(), layer.pixels.end(), [&](const glm::vec3& pixel) {
+        const glm::vec3 display = toDisplay(pixel, toneMap);
+        return std::max({display.x, display.y, display.z}) < kNearBlack;
+    });
+    const double share = double(dark) / double(layer.pixels.size());
+    if (share < kMostlyBlack) return;
+    printWarning(
+        fmt::format("{:.0f} % of '{}' is nearly black at exposure {:.3g}; raise --exposure, or look from somewhere "
+                    "else with --camera or --look-from: the camera may stand in a wall or where no light comes",
+                    std::floor(100 * share), path, toneMap.exposure));
+}
+
+Result<void> writeLight(const std::string& path, const HdrImage& layer, const ToneMap& toneMap) {
+    auto written = writeImage(path, layer, toneMap);
+    if (written) warnWhereNearlyBlack(path, layer, toneMap);
+    return written;
+}
+
 HdrImage asWhiteSurface(HdrImage irradiance) {
     for (glm::vec3& e : irradiance.pixels) e *= std::numbers::inv_pi_v<float>;
     return irradiance;
@@ -53,14 +76,17 @@ HdrImage asWhiteSurface(HdrImage irradiance) {
 
 }  // namespace
 
+bool isLight(Aov aov) {
+    return aov == Aov::color || aov == Aov::direct || aov == Aov::indirect || aov == Aov::irradiance;
+}
+
 Result<void> writeAov(const std::string& path, const Picture& picture, Aov aov, const ToneMap& toneMap) {
     const HdrImage& layer = layerOf(picture, aov);
     if (path.ends_with(".exr")) return writeImage(path, layer);
-    const ToneMap used = isLight(aov) ? toneMap : ToneMap{};
-    if (aov == Aov::normal) return writeImage(path, displayNormals(layer), used);
-    if (aov == Aov::depth) return writeImage(path, displayDepth(layer), used);
-    if (aov == Aov::irradiance) return writeImage(path, asWhiteSurface(layer), used);
-    return writeImage(path, layer, used);
+    if (aov == Aov::normal) return writeImage(path, displayNormals(layer));
+    if (aov == Aov::depth) return writeImage(path, displayDepth(layer));
+    if (aov == Aov::irradiance) return writeLight(path, asWhiteSurface(layer), toneMap);
+    return isLight(aov) ? writeLight(path, layer, toneMap) : writeImage(path, layer);
 }
 
 }  // namespace probegi::tool

@@ -21,11 +21,15 @@ std::string remainingText(const ConvergeResult& result) {
     return fmt::format("the light of the worst region may still be {:.2g} % off", 100 * result.remaining);
 }
 
-Result<FieldRun> updateField(Field& field, const Tracer& tracer, const Lighting& lighting, int frames) {
+Result<FieldRun> updateField(Field& field, const Tracer& tracer, const Lighting& lighting,
+                             const FieldRunOptions& options) {
     FieldRun run;
-    LoopProgress progress("updating probes", frames);
+    const int frames = *options.frames;
+    std::optional<LoopProgress> bar;
+    if (!options.progress) bar.emplace("updating probes", frames);
     for (int frame = 0; frame < frames; ++frame) {
-        progress.done(frame);
+        if (bar) bar->done(frame);
+        if (options.progress) options.progress(double(frame) / frames);
         const auto times = field.update(tracer, lighting);
         if (!times) return tl::unexpected(times.error());
         run.updates.push_back(*times);
@@ -55,7 +59,7 @@ void addFieldRunOptions(CLI::App& command, FieldRunOptions& options) {
 
 Result<FieldRun> runField(Field& field, const Tracer& tracer, const Lighting& lighting,
                           const FieldRunOptions& options) {
-    if (options.frames) return updateField(field, tracer, lighting, *options.frames);
+    if (options.frames) return updateField(field, tracer, lighting, options);
     FieldRun run;
     const auto record = [&](const UpdateTimes& times) { run.updates.push_back(times); };
     const auto done = field.converge(tracer, lighting, toleranceOf(options), kConvergeMaxUpdates, record);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,8 @@ inline constexpr int kConvergeMaxUpdates = 128;
 struct FieldRunOptions {
     std::optional<int> frames;       ///< --frames
     std::optional<float> tolerance;  ///< --tolerance
+    /// Told how much of --frames is done, 0..1, in place of a bar of its own. (Field::converge tells the context.)
+    std::function<void(double)> progress{};
 };
 
 /// Adds --frames and --tolerance, which exclude each other.

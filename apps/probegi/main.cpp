@@ -40,7 +40,7 @@ int usageError(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App app("ProbeGI: global illumination from light probes, without light leaking through walls", "probegi");
+    CLI::App app("ProbeGI: real-time global illumination from light probes that know how far they see", "probegi");
     app.footer(kFirstSteps);
     app.set_version_flag("--version", "probegi " PROBEGI_VERSION);
     app.require_subcommand(0, 1);

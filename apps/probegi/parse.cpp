@@ -123,6 +123,15 @@ Result<PictureSize> parseSize(std::string_view text) {
     return size;
 }
 
+Result<Exposure> parseExposure(std::string_view text) {
+    if (text == "auto") return Exposure{true, {}};
+    if (text == "scene") return Exposure{};
+    const auto factor = parseNumbers(text, 1);
+    if (!factor || !((*factor)[0] >= 1e-9f && (*factor)[0] <= 1e9f))
+        return expected(text, "auto, scene, or a number from 1e-9 to 1e9");
+    return Exposure{false, (*factor)[0]};
+}
+
 CLI::Validator inRange(double lower, double upper) {
     return CLI::Validator(
         [lower, upper](std::string& text) {

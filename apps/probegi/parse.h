@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <glm/vec3.hpp>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,13 @@ struct PictureSize {
     int height = 540;
 };
 Result<PictureSize> parseSize(std::string_view text);  ///< "WxH", each 1..16384
+
+/// What --exposure says.
+struct Exposure {
+    bool automatic = false;       ///< "auto": from the picture
+    std::optional<float> factor;  ///< empty without automatic, "scene": what the scene suggests
+};
+Result<Exposure> parseExposure(std::string_view text);  ///< "auto", "scene" or a number, 1e-9..1e9
 
 /// CLI11's own range check lets NaN through and does not say which option failed.
 CLI::Validator inRange(double lower, double upper);

@@ -43,11 +43,13 @@ struct RenderOptions {
 
 const char* const kFooter =
     R"(Light is in linear Rec.709: radiance in W/sr/m2, irradiance in W/m2; lengths in metres; +Y is up.
-An .exr holds the linear values; a .png is 8-bit sRGB after --exposure.
+An .exr holds the linear values; a .png is 8-bit sRGB after --exposure, dithered. Without --exposure each .png gets an
+exposure of its own, which is told: give it to the next picture where two are to be compared by eye.
 As .png, normals are 0.5 + 0.5 n, depth fades to black at the farthest point, irradiance is what a white matt surface
 would send back.
 
 Example: probegi render builtin:cornell -o cornell.png
+Example: probegi render builtin:cornell -o darker.png --exposure 0.8
 Example: probegi render sponza.glb -o sponza.exr --camera nave --sky 0.3,0.4,0.6 --size 1920x1080 --stats stats.json
 Example: probegi render builtin:house -o house.png --backend vulkan
 Example: probegi render builtin:house -o truth.png --method reference --time 30)";
@@ -139,7 +141,10 @@ Result<void> render(const RenderOptions& options) {
     const auto draw = options.method == Method::reference ? renderReference : renderWithField;
     const auto picture = draw(*context, **backend, **tracer, *setup, options, stats);
     if (!picture) return tl::unexpected(picture.error());
-    const ToneMap toneMap{setup->exposure, options.filmic};
+    const ToneMap toneMap{shownExposure(*setup, picture->color), options.filmic};
+    if (setup->automaticExposure && isLight(options.aov) && options.output.ends_with(".png"))
+        fmt::print("exposure {:.4g}, found automatically; the same for another picture: --exposure {:.4g}\n",
+                   toneMap.exposure, toneMap.exposure);
     if (auto written = writeAov(options.output, *picture, options.aov, toneMap); !written) return written;
     return options.stats.empty() ? Result<void>() : writeText(options.stats, statsJson(stats));
 }

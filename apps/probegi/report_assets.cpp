@@ -33,7 +33,24 @@ section { margin-top: clamp(28px, 5vw, 56px); padding-top: clamp(20px, 3vw, 32px
 .gallery { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 460px), 1fr)); gap: 18px; }
 .gallery.maps { grid-template-columns: repeat(auto-fit, minmax(min(100%, 320px), 1fr)); }
 figure { margin: 0; background: var(--card); border: 1px solid var(--line); border-radius: 10px; overflow: hidden; }
-figure > img { display: block; width: 100%; height: auto; }
+figure img { display: block; width: 100%; height: auto; }
+.zoom { display: block; width: 100%; margin: 0; padding: 0; border: 0; background: none; cursor: zoom-in; }
+.verdict { font-size: 1.2rem; font-weight: 600; line-height: 1.4; margin: 0.9rem 0; padding: 0.8rem 1.1rem; border-left: 6px solid var(--tone); border-radius: 6px; background: var(--card); }
+.verdict.matches { --tone: #2f9e57; } .verdict.differs { --tone: #d9930d; } .verdict.noisy { --tone: #7a7f8a; } .verdict.leaks { --tone: #d8352a; }
+.view + .view { margin-top: 2.5rem; }
+h4 { font-size: 0.95rem; margin: 1.6rem 0 0.7rem; color: var(--quiet); font-weight: 600; }
+.exposure { display: flex; flex-wrap: wrap; align-items: center; gap: 0.4rem 0.9rem; margin: 1rem 0; font-size: 0.9rem; color: var(--quiet); }
+.exposure label { display: flex; align-items: center; gap: 0.6rem; } .exposure input { width: min(46vw, 320px); accent-color: var(--accent); }
+.exposure output { font-variant-numeric: tabular-nums; min-width: 12em; }
+button { font: inherit; }
+.exposure button, .tools button { color: var(--ink); background: var(--page); border: 1px solid var(--line); border-radius: 7px; padding: 0.2rem 0.7rem; cursor: pointer; }
+.key { list-style: none; display: flex; flex-wrap: wrap; gap: 0.3rem 1.3rem; padding: 0; margin: 0 0 0.9rem; font-size: 0.9rem; }
+.key span { display: inline-block; width: 0.85em; height: 0.85em; border-radius: 50%; margin-right: 0.45em; }
+dialog { width: min(96vw, 1960px); max-width: none; max-height: 96vh; padding: 0.9rem 1.1rem; border: 1px solid var(--line); border-radius: 12px; background: var(--card); color: var(--ink); }
+dialog::backdrop { background: rgb(0 0 0 / 0.6); }
+.tools { display: flex; flex-wrap: wrap; justify-content: space-between; gap: 0.5rem; }
+dialog output { display: block; min-height: 3em; margin: 0.5rem 0; font-size: 0.9rem; font-variant-numeric: tabular-nums; white-space: pre-line; }
+.scroll { overflow: auto; max-height: 78vh; } .scroll canvas { display: block; image-rendering: pixelated; cursor: crosshair; }
 figcaption { padding: 0.6rem 0.9rem 0.75rem; font-size: 0.9rem; color: var(--quiet); }
 figcaption strong { color: var(--ink); }
 .slider { background: var(--card); border: 1px solid var(--line); border-radius: 10px; overflow: hidden; }
@@ -67,56 +84,7 @@ footer { padding-top: 28px; padding-bottom: 40px; color: var(--quiet); font-size
 footer div { border-top: 1px solid var(--line); padding-top: 18px; }
 code { font: 0.92em/1.5 ui-monospace, "DejaVu Sans Mono", monospace; overflow-wrap: anywhere; }
 noscript p { color: var(--accent); }
-@media print { .slider, nav { display: none; } section { break-inside: avoid; } }
+@media print { .slider, .exposure, nav { display: none; } section { break-inside: avoid; } }
 )css";
-
-const std::string_view kReportScript = R"js(
-"use strict";
-for (const slider of document.querySelectorAll(".slider")) {
-  const stage = slider.querySelector(".stage");
-  const range = stage.querySelector("input");
-  const [leftChoice, rightChoice] = slider.querySelectorAll("select");
-  const picture = (choice) => document.getElementById(choice.value);
-
-  function showPictures() {
-    const sides = [["left", leftChoice, ".tag.a"], ["right", rightChoice, ".tag.b"]];
-    for (const [side, choice, tag] of sides) {
-      const image = stage.querySelector("img." + side);
-      image.src = picture(choice).src;
-      image.alt = picture(choice).alt;
-      stage.querySelector(tag).textContent = choice.selectedOptions[0].textContent;
-    }
-    showSplit();
-  }
-
-  function showSplit() {
-    stage.style.setProperty("--split", range.value + "%");
-    range.setAttribute("aria-valuetext",
-      Math.round(range.value) + " % " + leftChoice.selectedOptions[0].textContent + ", the rest " +
-      rightChoice.selectedOptions[0].textContent);
-  }
-
-  function follow(event) {
-    const box = stage.getBoundingClientRect();
-    range.value = 100 * (event.clientX - box.left) / box.width;
-    showSplit();
-  }
-
-  stage.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
-    stage.setPointerCapture(event.pointerId);
-    follow(event);
-    range.focus({ preventScroll: true, focusVisible: false });
-    event.preventDefault();
-  });
-  stage.addEventListener("pointermove", (event) => {
-    if (stage.hasPointerCapture(event.pointerId)) follow(event);
-  });
-  range.addEventListener("input", showSplit);
-  leftChoice.addEventListener("change", showPictures);
-  rightChoice.addEventListener("change", showPictures);
-  showPictures();
-}
-)js";
 
 }  // namespace probegi::tool

@@ -32,8 +32,11 @@ struct ReportOptions {
 
 const char* const kFooter =
     R"(Writes DIR/report.html, one page that needs nothing else, and beside it the pictures as PNG and EXR and the numbers
-as report.json. Options apply to all scenes; the reference is path traced on the CPU whatever the backend. Errors are
-measured on light that clips at white, whatever the pictures are shown with.
+as report.json. The page begins with a verdict: whether the field matches the reference, where it leaks, or that the
+reference is too noisy to tell. All cameras of a scene are drawn, all but the first at half the size, unless --camera
+or --look-from names one. Options apply
+to all scenes; the reference is path traced on the CPU whatever the backend. Errors are measured on light that clips at
+white, whatever the pictures are shown with.
 
 Example: probegi report builtin:atrium -o out
 Example: probegi report builtin:cornell sponza.glb -o out --size 1280x720 --time 60)";
@@ -73,6 +76,8 @@ ReportSettings settingsOf(const ReportOptions& options) {
     settings.height = size.height;
     settings.samplesPerPixel = options.samplesPerPixel.value_or(0);
     settings.seconds = options.seconds.value_or(options.samplesPerPixel ? 0 : settings.seconds);
+    settings.allCameras =
+        options.scene.camera.empty() && options.scene.lookFrom.empty() && options.scene.lookAt.empty();
     return settings;
 }
 
@@ -83,6 +88,16 @@ Result<void> makeFolder(const fs::path& folder) {
         return fail(ErrorCode::writeFailed, fmt::format("The folder '{}' cannot be made ({}): choose another with -o",
                                                         folder.string(), error.message()));
     return checkOutput(folder / "report.html", {});
+}
+
+/// One bar over all pictures of all scenes.
+void planProgress(const std::vector<LoadedSetup>& setups, ReportSettings& settings, WholeBar& bar) {
+    std::vector<double> guesses;
+    for (const LoadedSetup& setup : setups)
+        for (const ReportPiece& piece : reportPieces(setup, settings)) guesses.push_back(piece.seconds);
+    bar.plan(std::move(guesses));
+    settings.onPiece = [&bar](const std::string& piece) { bar.begin(piece); };
+    settings.run.progress = [&bar](double share) { bar.done(share); };
 }
 
 /// All scenes, before the work begins: a mistyped name is reported at once.
@@ -105,24 +120,28 @@ std::string keyNumbers(const std::string& name, const RenderedScene& scene) {
     const FieldResult& field = scene.ddgiField;
     const LightRatio& ratio = scene.ddgi.whole.difference.ratio;
     return fmt::format(
-        "{}: {} probes, {:.0f} ms an update ({})\n"
+        "{}: {}\n"
+        "  {} probes, {:.0f} ms an update ({})\n"
         "  light over the path tracer's: {:.3f} at the median of {} probes, {:.3f} in the picture (blocks {:.3f} to "
         "{:.3f})\n"
         "  FLIP error: {:.3f} without GI, {:.3f} with the field; an exact picture {:.3f} for the reference's noise\n",
-        name, probeCount(scene.grid), field.update.total, field.description, field.ratio.median,
-        scene.truth.probes.size(), ratio.mean, ratio.low, ratio.high, scene.none.whole.difference.flip,
-        scene.ddgi.whole.difference.flip, scene.noiseFloor.flip);
+        name, verdictOf(scene).sentence, probeCount(scene.grid), field.update.total, field.description,
+        field.ratio.median, scene.truth.probes.size(), ratio.mean, ratio.low, ratio.high,
+        scene.none.whole.difference.flip, scene.ddgi.whole.difference.flip, scene.noiseFloor.flip);
 }
 
 Result<void> writeReport(const ReportOptions& options, const CLI::App& command) {
     const fs::path folder(options.folder);
-    const auto context = makeContext(options.scene.threads);
+    WholeBar bar;
+    const auto context = makeContext(options.scene.threads, bar);
     if (!context) return tl::unexpected(context.error());
     const auto backend = openBackend(*context, options.backend);
     if (!backend) return tl::unexpected(backend.error());
     const auto setups = loadAll(options);
     if (!setups) return tl::unexpected(setups.error());
     if (auto made = makeFolder(folder); !made) return made;
+    ReportSettings settings = settingsOf(options);
+    planProgress(*setups, settings, bar);
 
     Report report{"ProbeGI report", commandLine(command), legendColours(), {}};
     nlohmann::json numbers = nlohmann::json::array();
@@ -131,10 +150,9 @@ Result<void> writeReport(const ReportOptions& options, const CLI::App& command) 
     for (std::size_t i = 0; i < setups->size(); ++i) {
         const std::string& name = i == 0 ? options.scene.scene : options.more[i - 1];
         const LoadedSetup& setup = (*setups)[i];
-        const auto rendered = renderForReport(*context, **backend, setup, settingsOf(options));
+        const auto rendered = renderForReport(*context, **backend, setup, settings);
         if (!rendered) return tl::unexpected(rendered.error());
-        auto section = describeScene(*rendered, {folder, filePrefix(name, taken), sceneTitle(name)},
-                                     {setup.exposure, !options.plain});
+        auto section = describeScene(*rendered, {folder, filePrefix(name, taken), sceneTitle(name)}, !options.plain);
         if (!section) return tl::unexpected(section.error());
         report.scenes.push_back(std::move(*section));
         numbers.push_back(sceneNumbers(*rendered));
@@ -143,6 +161,7 @@ Result<void> writeReport(const ReportOptions& options, const CLI::App& command) 
     }
     if (auto written = writeText(folder / "report.json", numbers.dump(2) + "\n"); !written) return written;
     if (auto written = writeText(folder / "report.html", reportHtml(report)); !written) return written;
+    bar.clear();
     fmt::print("{}{}\n", summary, (folder / "report.html").string());
     return {};
 }
@@ -157,8 +176,10 @@ void addReportOptions(CLI::App& command, ReportOptions& options) {
         ->check(parsedBy(parseSize))
         ->capture_default_str();
     command
-        .add_option("--time", options.seconds,
-                    fmt::format("reference: seconds a scene (default {} without --spp)", options.settings.seconds))
+        .add_option(
+            "--time", options.seconds,
+            fmt::format("reference: seconds for the first camera, a quarter for each other (default {} without --spp)",
+                        options.settings.seconds))
         ->type_name("SECONDS")
         ->check(inRange(0.001, 1e6));
     command.add_option("--spp", options.samplesPerPixel, "reference: samples a pixel")

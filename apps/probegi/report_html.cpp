@@ -11,32 +11,46 @@ namespace probegi::tool {
 
 namespace {
 
-std::string elementId(std::size_t scene, std::string_view picture) {
-    return fmt::format("s{}-{}", scene, picture);
+/// Where on the page a picture is.
+struct Place {
+    std::size_t scene, view;
+    std::string id(std::string_view picture) const { return fmt::format("s{}v{}-{}", scene, view, picture); }
+};
+
+std::string dataUri(const std::string& png) {
+    return "data:image/png;base64," + base64(png);
 }
 
 std::string image(const ReportPicture& picture, const std::string& id) {
-    return fmt::format("<img id=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">", escapeHtml(id),
-                       escapeHtml(picture.alt), base64(picture.png));
+    std::string html = fmt::format("<img id=\"{}\" alt=\"{}\" src=\"{}\"", escapeHtml(id), escapeHtml(picture.alt),
+                                   dataUri(picture.png));
+    if (!picture.values.empty())
+        html += fmt::format(" data-values=\"{}\" data-unit=\"{}\"", dataUri(picture.values), escapeHtml(picture.unit));
+    if (picture.light) html += " data-light";
+    return html + ">";
 }
 
 std::string figure(const ReportPicture& picture, const std::string& id) {
-    return fmt::format("<figure>{}<figcaption><strong>{}.</strong> {}</figcaption></figure>\n", image(picture, id),
-                       escapeHtml(picture.title), escapeHtml(picture.caption));
+    std::string html = fmt::format(
+        "<figure><button class=\"zoom\" aria-label=\"Full size: {}\">{}</button><figcaption><strong>{}.</strong> {}",
+        escapeHtml(picture.title), image(picture, id), escapeHtml(picture.title), escapeHtml(picture.caption));
+    if (!picture.exr.empty())
+        html += fmt::format(" <a href=\"{}\" download>{}</a>", escapeHtml(picture.exr), escapeHtml(picture.exr));
+    return html + "</figcaption></figure>\n";
 }
 
-std::string options(const ReportScene& scene, std::size_t number, std::size_t chosen) {
+std::string options(const ReportView& view, const Place& place, std::size_t chosen) {
     std::string html;
     std::size_t index = 0;
-    for (const auto* list : {&scene.pictures, &scene.errorMaps})
+    for (const auto* list : {&view.pictures, &view.maps})
         for (const ReportPicture& picture : *list)
-            html += fmt::format("<option value=\"{}\"{}>{}</option>", escapeHtml(elementId(number, picture.id)),
+            html += fmt::format("<option value=\"{}\"{}>{}</option>", escapeHtml(place.id(picture.id)),
                                 index++ == chosen ? " selected" : "", escapeHtml(picture.title));
     return html;
 }
 
 /// Its pictures are those of the gallery below: the script points at them, so that each is in the file only once.
-std::string slider(const ReportScene& scene, std::size_t number, std::size_t left, std::size_t right) {
+std::string slider(const ReportView& view, const Place& place, std::size_t left, std::size_t right) {
     return fmt::format(
         "<div class=\"slider\"><div class=\"stage\"><img class=\"left\" alt=\"\"><img class=\"right\" alt=\"\">"
         "<span class=\"tag a\"></span><span class=\"tag b\"></span><span class=\"bar\"></span>"
@@ -44,7 +58,18 @@ std::string slider(const ReportScene& scene, std::size_t number, std::size_t lef
         "aria-label=\"Where the left picture ends, in percent\"></div>\n"
         "<div class=\"choose\"><label>Left <select>{}</select></label><label>Right <select>{}</select></label></div>"
         "</div>\n",
-        options(scene, number, left), options(scene, number, right));
+        options(view, place, left), options(view, place, right));
+}
+
+std::string exposureSlider() {
+    return "<div class=\"exposure\"><label>Exposure <input type=\"range\" min=\"-8\" max=\"8\" step=\"0.1\" "
+           "value=\"0\"></label> <output></output> <button>as made</button></div>\n";
+}
+
+std::string gallery(const std::vector<ReportPicture>& pictures, const Place& place, const char* kind) {
+    std::string html = fmt::format("<div class=\"gallery{}\">", kind);
+    for (const ReportPicture& picture : pictures) html += figure(picture, place.id(picture.id));
+    return html + "</div>\n";
 }
 
 std::string tiles(const std::vector<ReportFigure>& figures) {
@@ -85,27 +110,42 @@ std::string legend(const std::vector<std::string>& colours) {
         escapeHtml(stops));
 }
 
-std::string section(const Report& report, std::size_t number) {
-    const ReportScene& scene = report.scenes[number];
-    std::string html = fmt::format("<section id=\"scene{}\"><h2>{}</h2><p class=\"quiet\">{}</p>\n", number,
-                                   escapeHtml(scene.title), escapeHtml(scene.summary));
-    html += tiles(scene.figures);
-    if (scene.pictures.size() >= 2) {
-        const std::size_t reference = scene.pictures.size() - 1;
+std::string viewSection(const Report& report, const ReportView& view, const Place& place) {
+    std::string html =
+        fmt::format("<div class=\"view\" data-exposure=\"{}\" data-filmic=\"{}\">\n", view.exposure, int(view.filmic));
+    if (!view.title.empty()) html += fmt::format("<h3>{}</h3>\n", escapeHtml(view.title));
+    if (view.pictures.size() >= 2) {
+        const std::size_t reference = view.pictures.size() - 1;
         const std::size_t field = reference - 1;
-        html += "<div class=\"pair\">" + slider(scene, number, 0, field) + slider(scene, number, field, reference) +
+        html += exposureSlider() + "<div class=\"pair\">" + slider(view, place, 0, field) +
+                slider(view, place, field, reference) +
                 "</div>\n<noscript><p>The sliders need JavaScript; the pictures below do not.</p></noscript>\n";
     }
-    html += "<h3>Side by side</h3><div class=\"gallery\">";
-    for (const ReportPicture& picture : scene.pictures) html += figure(picture, elementId(number, picture.id));
-    html += "</div>\n";
-    if (!scene.errorMaps.empty()) {
-        html += "<h3>Where the difference from the reference can be seen</h3>\n" + legend(report.legend) +
-                "<div class=\"gallery maps\">";
-        for (const ReportPicture& picture : scene.errorMaps) html += figure(picture, elementId(number, picture.id));
-        html += "</div>\n";
-    }
-    html += "<div class=\"tables\">";
+    html += "<h4>Side by side</h4>" + gallery(view.pictures, place, "");
+    if (!view.maps.empty())
+        html += "<h4>Where the difference from the reference can be seen</h4>\n" + legend(report.legend) +
+                gallery(view.maps, place, " maps");
+    return html + "</div>\n";
+}
+
+std::string probeSection(const ReportScene& scene, std::size_t number) {
+    if (scene.probes.empty()) return {};
+    std::string html = "<h3>The probes</h3>\n<ul class=\"key\">";
+    for (const ReportKey& key : scene.probeKey)
+        html += fmt::format("<li><span style=\"background: {}\"></span>{}</li>", escapeHtml(key.colour),
+                            escapeHtml(key.label));
+    return html + "</ul>\n" + gallery(scene.probes, {number, 0}, "");
+}
+
+std::string section(const Report& report, std::size_t number) {
+    const ReportScene& scene = report.scenes[number];
+    std::string html = fmt::format(
+        "<section id=\"scene{}\"><h2>{}</h2><p class=\"verdict {}\">{}</p><p class=\"quiet\">{}</p>\n", number,
+        escapeHtml(scene.title), escapeHtml(scene.judgement), escapeHtml(scene.verdict), escapeHtml(scene.summary));
+    html += tiles(scene.figures);
+    for (std::size_t view = 0; view < scene.views.size(); ++view)
+        html += viewSection(report, scene.views[view], {number, view});
+    html += probeSection(scene, number) + "<div class=\"tables\">";
     for (const ReportTable& entry : scene.tables) html += table(entry);
     return html + "</div></section>\n";
 }
@@ -120,9 +160,15 @@ std::string navigation(const Report& report) {
 
 constexpr std::string_view kHead = R"html(<!doctype html>
 <html lang="en"><head><meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src 'unsafe-inline'">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <link rel="icon" href="data:,">
+)html";
+
+constexpr std::string_view kPixelDialog = R"html(<dialog id="pixels" aria-label="Picture in full size">
+<div class="tools"><strong></strong><span><button data-zoom="1">1:1</button> <button data-zoom="2">2:1</button>
+<button data-zoom="4">4:1</button> <button data-close>Close</button></span></div>
+<output>Point at the picture: its values come here.</output><div class="scroll"><canvas></canvas></div></dialog>
 )html";
 
 constexpr std::string_view kGlossary =
@@ -177,11 +223,13 @@ std::string reportHtml(const Report& report) {
         fmt::format("<title>{}</title>\n<style>{}</style></head>\n<body>\n", escapeHtml(report.title), kReportStyle);
     html += fmt::format(
         "<header><h1>{}</h1><p class=\"quiet\">Light from a field of probes, beside the path-traced truth. Drag the "
-        "line, or use the arrow keys.</p>{}</header>\n<main>\n",
+        "line, or use the arrow keys; click a picture to see it pixel by pixel, with its "
+        "values.</p>{}</header>\n<main>\n",
         escapeHtml(report.title), navigation(report));
     for (std::size_t i = 0; i < report.scenes.size(); ++i) html += section(report, i);
     html += fmt::format("</main>\n<footer><div><p>{}</p><p>Made by <code>{}</code></p></div></footer>\n", kGlossary,
                         escapeHtml(report.commandLine));
+    html += kPixelDialog;
     html += fmt::format("<script>{}</script>\n</body></html>\n", kReportScript);
     return html;
 }

@@ -5,6 +5,7 @@
 
 #include "report_html.h"
 #include "report_render.h"
+#include "report_verdict.h"
 
 namespace probegi::tool {
 
@@ -15,9 +16,12 @@ struct ReportPlace {
     std::string title;
 };
 
-/// Writes the pictures as PNG and EXR, the error maps as PNG, and puts them with the numbers into a section of the
-/// page. Errors: those of writeImage.
-Result<ReportScene> describeScene(const RenderedScene& scene, const ReportPlace& place, const ToneMap& display);
+/// What can be said of the field on all cameras.
+Verdict verdictOf(const RenderedScene& scene);
+
+/// Writes the pictures as PNG and EXR, the maps as PNG, and puts them with the numbers into a section of the page.
+/// `filmic`: bright light rolls off in the pictures instead of clipping. Errors: those of writeImage.
+Result<ReportScene> describeScene(const RenderedScene& scene, const ReportPlace& place, bool filmic);
 
 /// The same numbers for programs.
 nlohmann::json sceneNumbers(const RenderedScene& scene);

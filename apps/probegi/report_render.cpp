@@ -1,7 +1,10 @@
 #include "report_render.h"
 
+#include <algorithm>
 #include <chrono>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <iterator>
 #include <random>
 #include <tuple>
 
@@ -19,14 +22,37 @@ private:
     std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
 };
 
-PictureDesc pictureDesc(const LoadedSetup& setup, const ReportSettings& settings) {
+constexpr int kOthersShrink = 2;  // of cameras but the first
+
+PictureDesc pictureDesc(const RenderedView& view, const ReportSettings& settings) {
     PictureDesc desc;
-    desc.camera = setup.camera;
-    desc.width = settings.width;
-    desc.height = settings.height;
+    desc.camera = view.camera;
+    desc.width = std::max(1, settings.width / view.shrink);
+    desc.height = std::max(1, settings.height / view.shrink);
     desc.diffuseOnly = settings.diffuseOnly;
     return desc;
 }
+
+/// What all pieces of the work need.
+struct Studio {
+    const Backend& backend;
+    const Tracer& tracer;  ///< the backend's
+    const LoadedSetup& setup;
+    const ReportSettings& settings;
+
+    void begin(const char* piece) const {
+        if (settings.onPiece) settings.onPiece(piece);
+    }
+};
+
+constexpr const char* kSetUp = "setting up";
+constexpr const char* kProbeTruth = "path tracing probes";
+constexpr const char* kWithout = "pictures without GI";
+constexpr const char* kLeakyField = "leaking field";
+constexpr const char* kField = "field";
+constexpr const char* kRealtime = "field in real time";
+constexpr const char* kReference = "path tracing";
+constexpr const char* kComparing = "comparing pictures";
 
 /// Mean standard error over mean value, over all pixels and channels.
 double relativeNoise(const ReferencePicture& reference) {
@@ -42,16 +68,14 @@ double relativeNoise(const ReferencePicture& reference) {
 }
 
 /// What a layer of the reference scores against itself with as much noise again as its standard error says it has.
-Result<ImageDifference> noiseScore(const HdrImage& layer, const HdrImage& standardError, std::uint64_t seed,
-                                   float exposure) {
+Result<Comparison> noiseScore(const HdrImage& layer, const HdrImage& standardError, std::uint64_t seed,
+                              float exposure) {
     std::mt19937_64 random(seed);
     std::normal_distribution<float> normal;
     HdrImage twin = layer;
     for (std::size_t i = 0; i < twin.pixels.size(); ++i)
         twin.pixels[i] = glm::max(twin.pixels[i] + standardError.pixels[i] * normal(random), 0.0f);
-    const auto compared = compareImages(twin, layer, {exposure});
-    if (!compared) return tl::unexpected(compared.error());
-    return compared->difference;
+    return compareImages(twin, layer, {exposure});
 }
 
 Result<FieldResult> fillField(Field& field, const Tracer& tracer, const Lighting& lighting,
@@ -68,9 +92,9 @@ Result<FieldResult> fillField(Field& field, const Tracer& tracer, const Lighting
     return result;
 }
 
-Result<MethodResult> drawMethod(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
-                                const ReportSettings& settings, const Field* field) {
-    auto rendered = backend.render(tracer, setup.lighting, field, pictureDesc(setup, settings));
+Result<MethodResult> drawMethod(const Studio& studio, const RenderedView& view, const Field* field) {
+    auto rendered =
+        studio.backend.render(studio.tracer, studio.setup.lighting, field, pictureDesc(view, studio.settings));
     if (!rendered) return tl::unexpected(rendered.error());
     MethodResult result;
     result.picture = std::move(rendered->picture);
@@ -88,83 +112,183 @@ Result<void> judge(MethodResult& method, const Picture& reference, const ToneMap
     return {};
 }
 
-Result<FieldPicture> drawField(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
-                               const ReportSettings& settings, const ProbeTruth& truth, Field& field,
-                               const FieldRunOptions& run) {
-    auto filled = fillField(field, tracer, setup.lighting, run);
+/// The view of each camera, the first one's first.
+std::vector<RenderedView*> viewsOf(RenderedScene& scene) {
+    std::vector<RenderedView*> views{&scene};
+    for (RenderedView& view : scene.others) views.push_back(&view);
+    return views;
+}
+
+Result<void> drawViews(const Studio& studio, RenderedScene& scene, MethodResult RenderedView::*method,
+                       const Field* field) {
+    for (RenderedView* view : viewsOf(scene)) {
+        auto drawn = drawMethod(studio, *view, field);
+        if (!drawn) return tl::unexpected(drawn.error());
+        view->*method = std::move(*drawn);
+    }
+    return {};
+}
+
+Result<FieldResult> fillAndMeasure(const Studio& studio, const ProbeTruth& truth, Field& field,
+                                   const FieldRunOptions& run) {
+    auto filled = fillField(field, studio.tracer, studio.setup.lighting, run);
+    if (filled) filled->ratio = percentiles(probeRatios(field, truth));
+    return filled;
+}
+
+FieldDesc fieldDesc(const Studio& studio) {
+    FieldDesc desc;
+    desc.grid = studio.setup.grid;
+    desc.raysPerProbe = studio.settings.raysPerProbe;
+    desc.seed = studio.settings.seed;
+    return desc;
+}
+
+Result<std::vector<ProbeSight>> lookAtProbes(const Field& field) {
+    constexpr glm::vec3 kAxes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    const GridDesc& grid = field.desc().grid;
+    const auto count = std::size_t(probeCount(grid));
+    std::vector<FieldQuery> queries;
+    for (std::size_t probe = 0; probe < count; ++probe)
+        for (const glm::vec3& axis : kAxes) queries.push_back({probePosition(grid, int(probe)), axis, axis});
+    std::vector<glm::vec3> answers(queries.size());
+    if (const auto asked = field.irradiance(queries, answers); !asked) return tl::unexpected(asked.error());
+    std::vector<ProbeSight> probes(count);
+    for (std::size_t i = 0; i < answers.size(); ++i)
+        probes[i / std::size(kAxes)].irradiance +=
+            glm::dot(answers[i], glm::vec3(0.2126f, 0.7152f, 0.0722f)) / float(std::size(kAxes));
+    for (std::size_t probe = 0; probe < count; ++probe)
+        probes[probe].backfaceShare = field.probeBackfaceShare(int(probe));
+    return probes;
+}
+
+/// A fresh field by real-time updates, and the first camera's picture with it.
+Result<FieldPicture> drawRealtime(const Studio& studio, const RenderedScene& scene) {
+    studio.begin(kRealtime);
+    auto fresh = studio.backend.makeField(fieldDesc(studio));
+    if (!fresh) return tl::unexpected(fresh.error());
+    auto filled = fillAndMeasure(studio, scene.truth, *fresh,
+                                 {studio.settings.realtimeUpdates, {}, studio.settings.run.progress});
     if (!filled) return tl::unexpected(filled.error());
-    filled->ratio = percentiles(probeRatios(field, truth));
-    auto drawn = drawMethod(backend, tracer, setup, settings, &field);
+    auto drawn = drawMethod(studio, scene, &*fresh);
     if (!drawn) return tl::unexpected(drawn.error());
     return FieldPicture{std::move(*filled), std::move(*drawn)};
 }
 
-FieldDesc fieldDesc(const LoadedSetup& setup, const ReportSettings& settings) {
-    FieldDesc desc;
-    desc.grid = setup.grid;
-    desc.raysPerProbe = settings.raysPerProbe;
-    desc.seed = settings.seed;
-    return desc;
-}
-
 /// The field without and with its leak guard. The second run starts from the first one's light, which it forgets. The
 /// field comes back for whoever wants to be guided by it.
-Result<Field> drawFields(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
-                         const ReportSettings& settings, RenderedScene& scene) {
-    auto field = backend.makeField(fieldDesc(setup, settings));
+Result<Field> drawFields(const Studio& studio, RenderedScene& scene) {
+    auto field = studio.backend.makeField(fieldDesc(studio));
     if (!field) return tl::unexpected(field.error());
-    for (const auto& [guard, result, method] : {std::tuple(LeakGuard::none, &scene.leakyField, &scene.leaky),
-                                                std::tuple(LeakGuard::moments, &scene.ddgiField, &scene.ddgi)}) {
+    for (const auto& [guard, piece, result, method] :
+         {std::tuple(LeakGuard::none, kLeakyField, &scene.leakyField, &RenderedView::leaky),
+          std::tuple(LeakGuard::moments, kField, &scene.ddgiField, &RenderedView::ddgi)}) {
+        studio.begin(piece);
         field->setGuard(guard);
-        auto drawn = drawField(backend, tracer, setup, settings, scene.truth, *field, settings.run);
-        if (!drawn) return tl::unexpected(drawn.error());
-        *result = std::move(drawn->field);
-        *method = std::move(drawn->method);
+        auto filled = fillAndMeasure(studio, scene.truth, *field, studio.settings.run);
+        if (!filled) return tl::unexpected(filled.error());
+        *result = std::move(*filled);
+        if (auto drawn = drawViews(studio, scene, method, &*field); !drawn) return tl::unexpected(drawn.error());
     }
-    if (!settings.realtimeUpdates) return std::move(*field);
-    auto fresh = backend.makeField(fieldDesc(setup, settings));
-    if (!fresh) return tl::unexpected(fresh.error());
-    auto drawn = drawField(backend, tracer, setup, settings, scene.truth, *fresh, {settings.realtimeUpdates, {}});
-    if (!drawn) return tl::unexpected(drawn.error());
-    scene.realtime = std::move(*drawn);
+    auto probes = lookAtProbes(*field);
+    if (!probes) return tl::unexpected(probes.error());
+    scene.probes = std::move(*probes);
+    if (!studio.settings.realtimeUpdates) return std::move(*field);
+    auto realtime = drawRealtime(studio, scene);
+    if (!realtime) return tl::unexpected(realtime.error());
+    scene.realtime = std::move(*realtime);
     return std::move(*field);
 }
 
-Result<void> drawReference(const PathTracer& pathTracer, const LoadedSetup& setup, const ReportSettings& settings,
-                           const Field& guide, RenderedScene& scene) {
+Result<void> scoreNoise(RenderedView& view, std::uint64_t seed) {
+    auto whole = noiseScore(view.reference.color, view.referenceError, seed, view.exposure);
+    if (!whole) return tl::unexpected(whole.error());
+    view.noiseFloor = whole->difference;
+    view.noiseMap = std::move(whole->flipMap);
+    HdrImage indirectError = view.referenceError;
+    for (std::size_t i = 0; i < indirectError.pixels.size(); ++i)
+        indirectError.pixels[i] = glm::min(indirectError.pixels[i], view.reference.indirect.pixels[i]);
+    const auto indirect = noiseScore(view.reference.indirect, indirectError, seed, view.exposure);
+    if (!indirect) return tl::unexpected(indirect.error());
+    view.indirectNoiseFloor = indirect->difference;
+    return {};
+}
+
+Result<void> drawReference(const PathTracer& pathTracer, const Studio& studio, const Field& guide, RenderedView& view) {
+    const ReportSettings& settings = studio.settings;
+    studio.begin(kReference);
     ReferenceDesc desc;
     desc.guide = &guide;
-    desc.picture = pictureDesc(setup, settings);
-    desc.seconds = settings.seconds;
+    desc.picture = pictureDesc(view, settings);
+    desc.seconds = settings.seconds / (view.shrink * view.shrink);
     desc.samplesPerPixel = settings.samplesPerPixel;
     desc.seed = settings.seed;
     auto reference = pathTracer.render(desc);
     if (!reference) return tl::unexpected(reference.error());
-    scene.referenceSamples = reference->samplesPerPixel;
-    scene.referenceSeconds = reference->seconds;
-    scene.referenceNoise = relativeNoise(*reference);
-    const Picture& truth = reference->picture;
-    const auto whole = noiseScore(truth.color, reference->standardError, settings.seed, setup.exposure);
-    if (!whole) return tl::unexpected(whole.error());
-    scene.noiseFloor = *whole;
-    HdrImage indirectError = reference->standardError;
-    for (std::size_t i = 0; i < indirectError.pixels.size(); ++i)
-        indirectError.pixels[i] = glm::min(indirectError.pixels[i], truth.indirect.pixels[i]);
-    const auto indirect = noiseScore(truth.indirect, indirectError, settings.seed, setup.exposure);
-    if (!indirect) return tl::unexpected(indirect.error());
-    scene.indirectNoiseFloor = *indirect;
-    scene.reference = std::move(reference->picture);
+    view.referenceSamples = reference->samplesPerPixel;
+    view.referenceSeconds = reference->seconds;
+    view.referenceNoise = relativeNoise(*reference);
+    view.reference = std::move(reference->picture);
+    view.referenceError = std::move(reference->standardError);
+    view.exposure = shownExposure(studio.setup, view.reference.color);
+    return {};
+}
+
+Result<void> compareViews(const Studio& studio, RenderedScene& scene) {
+    studio.begin(kComparing);
+    for (RenderedView* view : viewsOf(scene)) {
+        if (auto done = scoreNoise(*view, studio.settings.seed); !done) return done;
+        std::vector<MethodResult*> methods{&view->none, &view->leaky, &view->ddgi};
+        if (view == &scene && scene.realtime) methods.push_back(&scene.realtime->method);
+        for (MethodResult* method : methods)
+            if (auto done = judge(*method, view->reference, {view->exposure, false}); !done) return done;
+    }
     return {};
 }
 
 }  // namespace
 
+std::vector<PlacedCamera> reportCameras(const LoadedSetup& setup, const ReportSettings& settings) {
+    std::vector<PlacedCamera> cameras{setup.camera};
+    if (!settings.allCameras) return cameras;
+    for (const PlacedCamera& camera : setup.pose.cameras)
+        if (camera.position != setup.camera.position || camera.forward != setup.camera.forward)
+            cameras.push_back(camera);
+    return cameras;
+}
+
+std::vector<ReportPiece> reportPieces(const LoadedSetup& setup, const ReportSettings& settings) {
+    const std::size_t cameras = reportCameras(setup, settings).size();
+    const double others = double(cameras - 1) / (kOthersShrink * kOthersShrink);
+    const double pixels = double(settings.width) * settings.height * (1 + others);
+    const double probes = probeCount(setup.grid);
+    const double picture = 1e-6 * pixels, update = 2e-7 * probes * settings.raysPerProbe;
+    const double updates = settings.run.frames.value_or(40);
+    const double reference =
+        settings.seconds > 0 ? settings.seconds : 2e-6 * settings.width * settings.height * settings.samplesPerPixel;
+    std::vector<ReportPiece> pieces{{kSetUp, 1e-6 * double(triangleCount(*setup.scene, setup.pose))},
+                                    {kProbeTruth, 2e-5 * settings.ratioProbes * settings.ratioSamples},
+                                    {kWithout, picture},
+                                    {kLeakyField, updates * update + picture},
+                                    {kField, updates * update + picture}};
+    if (settings.realtimeUpdates) pieces.push_back({kRealtime, *settings.realtimeUpdates * update + picture});
+    for (std::size_t camera = 0; camera < cameras; ++camera)
+        pieces.push_back({kReference, camera == 0 ? reference : reference / (kOthersShrink * kOthersShrink)});
+    pieces.push_back({kComparing, 4e-6 * pixels});
+    return pieces;
+}
+
 Result<RenderedScene> renderForReport(const Context& context, const Backend& backend, const LoadedSetup& setup,
                                       const ReportSettings& settings) {
     RenderedScene scene;
+    const std::vector<PlacedCamera> cameras = reportCameras(setup, settings);
+    scene.others.resize(cameras.size() - 1);
+    for (std::size_t i = 0; i < cameras.size(); ++i) viewsOf(scene)[i]->camera = cameras[i];
+    for (RenderedView& view : scene.others) view.shrink = kOthersShrink;
     scene.triangles = triangleCount(*setup.scene, setup.pose);
     scene.lights = setup.lighting.lights.size();
     scene.grid = setup.grid;
+    if (settings.onPiece) settings.onPiece(kSetUp);
     const Stopwatch watch;
     const auto tracer = makeEmbreeTracer(context, *setup.scene, setup.pose);
     if (!tracer) return tl::unexpected(tracer.error());
@@ -177,24 +301,21 @@ Result<RenderedScene> renderForReport(const Context& context, const Backend& bac
         if (!made) return tl::unexpected(made.error());
         another = std::move(*made);
     }
-    const Tracer& drawing = another ? *another : **tracer;
+    const Studio studio{backend, another ? *another : **tracer, setup, settings};
 
+    studio.begin(kProbeTruth);
     auto truth = traceProbeTruth(**tracer, *pathTracer, setup.grid, settings.ratioProbes, settings.ratioSamples,
                                  settings.diffuseOnly);
     if (!truth) return tl::unexpected(truth.error());
     scene.truth = std::move(*truth);
-    auto none = drawMethod(backend, drawing, setup, settings, nullptr);
-    if (!none) return tl::unexpected(none.error());
-    scene.none = std::move(*none);
-    const auto field = drawFields(backend, drawing, setup, settings, scene);
+    studio.begin(kWithout);
+    if (auto drawn = drawViews(studio, scene, &RenderedView::none, nullptr); !drawn)
+        return tl::unexpected(drawn.error());
+    const auto field = drawFields(studio, scene);
     if (!field) return tl::unexpected(field.error());
-    if (auto done = drawReference(*pathTracer, setup, settings, *field, scene); !done)
-        return tl::unexpected(done.error());
-    std::vector<MethodResult*> methods{&scene.none, &scene.leaky, &scene.ddgi};
-    if (scene.realtime) methods.push_back(&scene.realtime->method);
-    for (MethodResult* method : methods)
-        if (auto done = judge(*method, scene.reference, {setup.exposure, false}); !done)
-            return tl::unexpected(done.error());
+    for (RenderedView* view : viewsOf(scene))
+        if (auto done = drawReference(*pathTracer, studio, *field, *view); !done) return tl::unexpected(done.error());
+    if (auto done = compareViews(studio, scene); !done) return tl::unexpected(done.error());
     return scene;
 }
 

@@ -50,6 +50,25 @@ ReportTable indirectTable(const RenderedScene& scene) {
         ""};
 }
 
+ReportTable cameraTable(const RenderedScene& scene) {
+    ReportTable table{"The field, camera by camera",
+                      {"", "FLIP", "exact picture", "light, mean", "5th", "95th"},
+                      {},
+                      "Light of the picture over the reference's; an exact picture's FLIP is the reference's noise."};
+    std::size_t number = 0;
+    const auto add = [&](const RenderedView& view) {
+        const ImageDifference& d = view.ddgi.whole.difference;
+        const std::string name = view.camera.name.empty() ? std::to_string(number) : view.camera.name;
+        table.rows.push_back({name, fmt::format("{:.4f}", d.flip), fmt::format("{:.4f}", view.noiseFloor.flip),
+                              fmt::format("{:.3f}", d.ratio.mean), fmt::format("{:.3f}", d.ratio.low),
+                              fmt::format("{:.3f}", d.ratio.high)});
+        ++number;
+    };
+    add(scene);
+    for (const RenderedView& view : scene.others) add(view);
+    return table;
+}
+
 std::vector<std::string> lightRow(const char* name, const LightRatio& r) {
     return {name, fmt::format("{:.3f}", r.mean), fmt::format("{:.3f}", r.low), fmt::format("{:.3f}", r.median),
             fmt::format("{:.3f}", r.high)};
@@ -132,8 +151,10 @@ std::string grouped(std::size_t number) {
 }
 
 std::vector<ReportTable> reportTables(const RenderedScene& scene) {
-    return {wholeTable(scene), indirectTable(scene), lightTable(scene),
-            ratioTable(scene), timeTable(scene),     sceneTable(scene)};
+    std::vector<ReportTable> tables{wholeTable(scene), indirectTable(scene), lightTable(scene),
+                                    ratioTable(scene), timeTable(scene),     sceneTable(scene)};
+    if (!scene.others.empty()) tables.insert(tables.begin(), cameraTable(scene));
+    return tables;
 }
 
 std::vector<ReportFigure> reportFigures(const RenderedScene& scene) {

@@ -99,11 +99,14 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     addCameraOptions(command, options);
     addLightOptions(command, options);
     addGridOptions(command, options);
+    options.exposure = "auto";
     command
         .add_option("--exposure", options.exposure,
-                    "factor on the light before a PNG is written (default: the scene's)")
-        ->type_name("FACTOR")
-        ->check(inRange(1e-9, 1e9));
+                    "factor on the light before a PNG is written: a number, what the scene suggests (scene), or what "
+                    "makes the picture neither dark nor bright (auto)")
+        ->type_name("auto|scene|FACTOR")
+        ->check(parsedBy(parseExposure))
+        ->capture_default_str();
     command.add_option("--threads", options.threads, "worker threads, 0 to 1024; 0: all; never changes the result")
         ->type_name("N")
         ->check(inRange(0, 1024))

@@ -166,6 +166,10 @@ Result<LoadedScene> readScene(const SceneOptions& options) {
     return LoadedScene{std::move(*scene), {}};
 }
 
+float shownExposure(const LoadedSetup& setup, const HdrImage& color) {
+    return setup.automaticExposure ? autoExposure(color) : setup.exposure;
+}
+
 bool hasLight(const Scene& scene, const ScenePose& pose, const Lighting& lighting) {
     return !lighting.lights.empty() || !lighting.sky.black() || hasEmission(scene, pose);
 }
@@ -178,7 +182,9 @@ Result<LoadedSetup> loadSetup(const SceneOptions& options) {
     for (const std::string& warning : setup.warnings) printWarning(warning);
     setup.scene = std::make_unique<Scene>(std::move(loaded->scene));
     setup.pose = poseAt(*setup.scene, options.timeOfScene);
-    setup.exposure = options.exposure.value_or(setup.scene->exposure);
+    const Exposure exposure = *parseExposure(options.exposure);
+    setup.exposure = exposure.factor.value_or(setup.scene->exposure);
+    setup.automaticExposure = exposure.automatic;
 
     auto lighting = makeLighting(options, *setup.scene, setup.pose);
     if (!lighting) return tl::unexpected(lighting.error());

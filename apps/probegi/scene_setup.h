@@ -28,8 +28,8 @@ struct SceneOptions {
     std::vector<std::string> suns, points;  ///< where given, they replace the scene's lights of their kind
     std::string sky;                        ///< R,G,B or a file
 
-    std::string volume, probes;     ///< --volume, --probes
-    std::optional<float> exposure;  ///< empty: the scene's suggestion
+    std::string volume, probes;      ///< --volume, --probes
+    std::string exposure = "scene";  ///< --exposure
 };
 
 /// Adds SCENE, all overrides and --threads to a command.
@@ -45,12 +45,16 @@ struct LoadedSetup {
     Lighting lighting;  ///< lights of no intensity are left out
     PlacedCamera camera;
     GridDesc grid;
-    float exposure = 1.0f;
+    float exposure = 1.0f;              ///< that was asked for, or what the scene suggests
+    bool automaticExposure = false;     ///< of what is shown: from the picture
     std::vector<std::string> warnings;  ///< of the reader, and of a grid that leaves surfaces out; one sentence each
 };
 
 /// Loads or makes the scene, and nothing else.
 Result<LoadedScene> readScene(const SceneOptions& options);
+
+/// The exposure at which a picture is shown: the setup's, or one that follows from the picture.
+float shownExposure(const LoadedSetup& setup, const HdrImage& color);
 
 /// Whether anything shines: a punctual light, a sky that is not black, an emissive triangle.
 bool hasLight(const Scene& scene, const ScenePose& pose, const Lighting& lighting);

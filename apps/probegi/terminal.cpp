@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <optional>
+
+#include "whole_progress.h"
 
 namespace probegi::tool {
 
@@ -72,6 +75,60 @@ Result<Context> makeContext(int threads) {
             bar->draw(report);
             return true;
         };
+    return Context::create(desc);
+}
+
+struct WholeBar::Impl {
+    std::optional<WholeProgress> whole = {};
+    std::string piece = {};
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    ProgressBar bar = {};
+
+    void done(double share) {
+        if (!whole || piece.empty() || !isatty(STDERR_FILENO)) return;
+        const double fraction = std::min(whole->fraction(share), 0.999);
+        const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        bar.draw({piece, fraction, elapsed, fraction > 0.01 ? elapsed / fraction - elapsed : -1});
+    }
+};
+
+WholeBar::WholeBar() : m_impl(std::make_shared<Impl>()) {}
+
+WholeBar::~WholeBar() {
+    m_impl->bar.clear();
+}
+
+void WholeBar::plan(std::vector<double> guesses) {
+    m_impl->whole.emplace(std::move(guesses));
+    m_impl->start = std::chrono::steady_clock::now();
+}
+
+void WholeBar::begin(std::string piece) {
+    if (m_impl->whole) m_impl->whole->begin();
+    m_impl->piece = std::move(piece);
+    done(0);
+}
+
+void WholeBar::done(double shareOfPiece) {
+    m_impl->done(shareOfPiece);
+}
+
+void WholeBar::clear() {
+    m_impl->bar.clear();
+}
+
+Result<Context> makeContext(int threads, WholeBar& whole) {
+    ContextDesc desc;
+    desc.threads = threads;
+    desc.log = [shown = whole.m_impl](LogLevel level, std::string_view line) {
+        if (level != LogLevel::warning) return;
+        shown->bar.clear();
+        printWarning(line);
+    };
+    desc.progress = [shown = whole.m_impl](const ProgressReport& report) {
+        shown->done(report.fraction);
+        return true;
+    };
     return Context::create(desc);
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "probegi/context.h"
 
@@ -11,6 +12,30 @@ namespace probegi::tool {
 /// A context that talks to the person at the terminal: warnings on stderr, and a progress bar with the time left
 /// where stderr is a terminal (nothing is drawn otherwise). Range of threads: 0 (all) to 1024.
 Result<Context> makeContext(int threads);
+
+/// One bar over several pieces of work, with the time left for all of them. Draws nothing where stderr is no terminal.
+class WholeBar {
+public:
+    WholeBar();
+    ~WholeBar();
+    WholeBar(const WholeBar&) = delete;
+    WholeBar& operator=(const WholeBar&) = delete;
+
+    /// Guesses of the pieces' seconds, once they are known and before the first begins.
+    void plan(std::vector<double> guesses);
+    void begin(std::string piece);
+    void done(double shareOfPiece);
+    /// Takes the bar away, for text that follows.
+    void clear();
+
+private:
+    struct Impl;
+    friend Result<Context> makeContext(int threads, WholeBar& bar);
+    std::shared_ptr<Impl> m_impl;
+};
+
+/// A context whose stages move the bar of the piece that they belong to. Before the first piece it draws nothing.
+Result<Context> makeContext(int threads, WholeBar& bar);
 
 /// The same bar for a loop of the tool's own. Draws nothing where stderr is no terminal.
 class LoopProgress {

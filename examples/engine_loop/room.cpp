@@ -1,5 +1,7 @@
 #include "room.h"
 
+#include <probegi/shapes.h>
+
 #include <cmath>
 
 using namespace probegi;
@@ -19,24 +21,14 @@ std::vector<Wall> wallsOf(const Room& room) {
 }  // namespace
 
 Scene Room::scene() const {
-    Primitive walls;
-    for (const Wall& wall : wallsOf(*this)) {
-        const auto first = std::uint32_t(walls.positions.size());
-        for (const glm::vec3& corner :
-             {wall.corner, wall.corner + wall.right, wall.corner + wall.right + wall.up, wall.corner + wall.up}) {
-            walls.positions.push_back(corner);
-        }
-        for (const std::uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) walls.indices.push_back(first + k);
-    }
     Scene scene;
     scene.name = "room";
     Material grey;
     grey.baseColor = {kAlbedo, kAlbedo, kAlbedo, 1};
     scene.materials.push_back(grey);
-    scene.meshes.push_back({"walls", {std::move(walls)}});
-    Node node;
-    node.mesh = 0;
-    scene.addNode(node);
+    Primitive walls;
+    addRoom(walls, glm::vec3(0), size);
+    addObject(scene, std::move(walls), "walls");
     return scene;
 }
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-/// A closed room of one grey, handed over as an engine would its own meshes: corners, triangles, a material.
+/// A closed room of one grey.
 struct Room {
     static constexpr float kAlbedo = 0.5f;
     glm::vec3 size{6, 3, 4};  ///< metres; one corner is the origin

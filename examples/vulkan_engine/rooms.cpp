@@ -1,5 +1,7 @@
 #include "rooms.h"
 
+#include <probegi/shapes.h>
+
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -29,25 +31,6 @@ constexpr std::array<Box, kBoxes> kRooms{{
     {{1, 0, -2.6f}, {1.5f, 2.2f, -2.1f}, kWhite},
     {{-0.4f, 0, -0.4f}, {0.4f, 0.8f, 0.4f}, kYellow},  // the crate, where frameAt() puts it
 }};
-
-// The faces of a box with its corners in `lower` and `upper`, counter-clockwise seen from outside.
-Primitive boxFaces(const Box& box, int material) {
-    Primitive faces;
-    faces.material = material;
-    for (int face = 0; face < 6; ++face) {
-        const int axis = face / 2, u = (axis + 1 + face % 2) % 3, v = (axis + 2 - face % 2) % 3;
-        const auto first = std::uint32_t(faces.positions.size());
-        for (int corner = 0; corner < 4; ++corner) {
-            glm::vec3 p = box.lower;
-            if (face % 2 == 0) p[axis] = box.upper[axis];
-            if (corner == 1 || corner == 2) p[u] = box.upper[u];
-            if (corner >= 2) p[v] = box.upper[v];
-            faces.positions.push_back(p);
-        }
-        for (const std::uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) faces.indices.push_back(first + k);
-    }
-    return faces;
-}
 
 bool near(const Box& box, glm::vec3 p, float distance) {
     return glm::all(glm::greaterThan(p, box.lower - distance)) && glm::all(glm::lessThan(p, box.upper + distance));
@@ -79,10 +62,10 @@ Scene sceneOf(const FrameData& frame) {
         Material paint;
         paint.baseColor = glm::vec4(frame.boxes[i].albedo, 1);
         scene.materials.push_back(paint);
-        scene.meshes.push_back({"box", {boxFaces(frame.boxes[i], i)}});
-        Node node;
-        node.mesh = i;
-        scene.addNode(node);
+        Primitive box;
+        box.material = i;
+        addBox(box, frame.boxes[i].lower, frame.boxes[i].upper);
+        addObject(scene, std::move(box), "box");
     }
     return scene;
 }

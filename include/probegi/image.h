@@ -26,10 +26,17 @@ struct HdrImage {
 struct ToneMap {
     float exposure = 1.0f;  ///< factor on the linear value before the curve; > 0
     bool filmic = false;    ///< false: clip at 1 (measurement); true: a smooth shoulder (handsome pictures)
+    bool dither = true;  ///< 8-bit files: neighbouring pixels are rounded up and down in turn, so that slow gradients
+                         ///< show no bands; what an 8-bit step holds exactly stays as it is
 };
 
 /// Display-referred value in 0..1 of a linear one: exposure, curve, sRGB transfer function.
 glm::vec3 toDisplay(glm::vec3 linear, const ToneMap& toneMap);
+
+/// The exposure at which a picture is neither too dark nor too bright: the geometric mean of its luminance, without its
+/// darkest tenth and its brightest twentieth, becomes middle grey (0.18 before the curve). A factor on the picture
+/// divides the exposure. 1 where nothing shines. Values that are not finite or negative count as black.
+float autoExposure(const HdrImage& image);
 
 /// Reads .exr, .hdr, .png or .jpg (the 8-bit ones are decoded from sRGB to linear).
 /// Errors: fileNotFound, fileUnreadable, malformed, unsupported (extension), outOfMemory (over 2^28 pixels).

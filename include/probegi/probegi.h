@@ -12,4 +12,5 @@
 #include "probegi/render.h"
 #include "probegi/result.h"
 #include "probegi/scene.h"
+#include "probegi/shapes.h"
 #include "probegi/tracer.h"

@@ -74,8 +74,8 @@ struct EmitterSet {
 /// send nothing are kept and never chosen; where none sends anything the set is empty.
 EmitterSet makeEmitterSet(std::vector<EmissiveTriangle> triangles, std::vector<float> luminance);
 
-/// The first axis of the pipeline: what a ray hits. Implementations are immutable once made and safe to use from
-/// many threads at once. Batches may have any length; the two spans must be equally long.
+/// The first axis of the pipeline: what a ray hits. Implementations are immutable once made (but for MovableTracer) and
+/// safe to use from many threads at once. Batches may have any length; the two spans must be equally long.
 class Tracer {
 public:
     virtual ~Tracer() = default;
@@ -85,6 +85,12 @@ public:
     virtual void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const = 0;
     /// Resolves valid hits; entries of missed rays are left as they are.
     virtual void surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const = 0;
+    /// The same with textures filtered over the cone of `spread` radians around each ray: for rays that stand alone for
+    /// a pixel, whose distant textures would shimmer. A tracer that does not filter gives what surfaces() gives.
+    virtual void filteredSurfaces(std::span<const Ray> rays, std::span<const Hit> hits, float /*spread*/,
+                                  std::span<Surface> out) const {
+        surfaces(rays, hits, out);
+    }
     /// Of everything that can be hit.
     virtual Bounds bounds() const = 0;
     /// The emitters that are worth looking at, for FieldDesc::emitterSamples; null: the tracer knows none. Lives as
@@ -98,8 +104,30 @@ struct Lighting {
     Sky sky;
 };
 
+/// A Tracer whose instances move: doors, lifts, whatever keeps its shape.
+class MovableTracer : public Tracer {
+public:
+    /// Moves the movable instances to where `pose` has them; all others stay. The trees over the triangles are kept,
+    /// only the one over the instances is made anew, so it costs little. Must not run beside any other call of the
+    /// tracer. What a probe knows of distances follows slowly: see FieldEvent::largeObjectChange.
+    /// Errors: invalidArgument (the pose is of another scene, or flattens an instance), outOfMemory. The tracer is then
+    /// as it was.
+    virtual Result<void> setPose(const ScenePose& pose) = 0;
+};
+
+/// Which instances a tracer keeps apart so that they can move; all others are merged where that is faster.
+struct MovableDesc {
+    bool animated = true;  ///< those of nodes that the scene's animations move
+    /// Nodes that move though no animation does; their children move with them. Read during the call only.
+    std::span<const int> nodes{};
+};
+
 /// Triangles by Embree on the CPU, with textures. Meshes used once are merged, shared ones become instances.
 /// The scene must be valid and outlive the tracer. Errors: outOfMemory, invalidArgument.
 Result<std::unique_ptr<Tracer>> makeEmbreeTracer(const Context& context, const Scene& scene, const ScenePose& pose);
+
+/// The same for a scene in which things move. Errors: those, and invalidArgument (a node that the scene has not).
+Result<std::unique_ptr<MovableTracer>> makeMovableEmbreeTracer(const Context& context, const Scene& scene,
+                                                               const ScenePose& pose, const MovableDesc& desc = {});
 
 }  // namespace probegi

@@ -11,6 +11,11 @@ namespace probegi {
 
 namespace {
 
+bool countBytes(void* sum, ssize_t bytes, bool /*afterwards*/) {
+    if (bytes > 0) *static_cast<std::atomic<std::int64_t>*>(sum) += bytes;
+    return true;
+}
+
 ErrorCode errorCode(RTCError error) {
     return error == RTC_ERROR_OUT_OF_MEMORY ? ErrorCode::outOfMemory : ErrorCode::invalidArgument;
 }
@@ -34,24 +39,27 @@ void EmbreeScene::attachMesh(RTCScene scene, const SurfaceMesh& mesh, int geomet
     rtcAttachGeometryByID(scene, handle.get(), unsigned(geometry));
 }
 
-EmbreeSceneHandle EmbreeScene::makeScene(const SurfaceGroup& group) {
+EmbreeSceneHandle EmbreeScene::makeScene(const SurfaceGroup& group, bool moves) {
     EmbreeSceneHandle scene(rtcNewScene(m_device.get()));
     // ROBUST: rays never slip between two triangles that share an edge. Without it 1.8 % of the rays aimed at edges of
     // a closed box were lost, and 16 % of those aimed at vertices (0.14 % with it). It costs a third of the speed,
     // mostly because Embree has no spatial splits for it, so that a higher build quality would change nothing.
-    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_MEDIUM);
+    // A scene that moves is dynamic and of low quality: Embree then keeps a tree for each geometry, each built once at
+    // medium quality, and only puts those under a new root when something has moved. Moving a door in Sponza takes 0.2
+    // ms; without both, Embree builds all of the world's triangles again, 120 ms. Rays are as fast (188 ms, 190).
+    rtcSetSceneFlags(scene.get(), moves ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene.get(), moves ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
     attachMesh(scene.get(), group.opaque, SurfaceGroup::kOpaque);
     attachMesh(scene.get(), group.masked, SurfaceGroup::kMasked);
     return scene;
 }
 
-void EmbreeScene::build() {
+void EmbreeScene::build(bool topMoves) {
     for (const SurfaceGroup& group : m_geometry.groups) {
-        m_groupScenes.push_back(makeScene(group));
+        m_groupScenes.push_back(makeScene(group, false));
         rtcCommitScene(m_groupScenes.back().get());
     }
-    m_top = makeScene(m_geometry.world);
+    m_top = makeScene(m_geometry.world, topMoves);
     for (std::size_t i = 0; i < m_geometry.placements.size(); ++i) {
         const Placement& placement = m_geometry.placements[i];
         const EmbreeGeometry instance(rtcNewGeometry(m_device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
@@ -60,6 +68,10 @@ void EmbreeScene::build() {
         rtcCommitGeometry(instance.get());
         rtcAttachGeometryByID(m_top.get(), instance.get(), kFirstInstance + unsigned(i));
     }
+    commitTop();
+}
+
+void EmbreeScene::commitTop() {
     rtcCommitScene(m_top.get());
     RTCBounds bounds;
     rtcGetSceneBounds(m_top.get(), &bounds);
@@ -68,22 +80,41 @@ void EmbreeScene::build() {
 }
 
 Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(const Context& context, const Scene& scene,
-                                                         const ScenePose& pose) try {
-    std::unique_ptr<EmbreeScene> result(new EmbreeScene);
-    result->m_geometry = SceneGeometry::gather(scene, pose);
+                                                         const ScenePose& pose, const InstancePredicate& movable) try {
+    std::unique_ptr<EmbreeScene> result(new EmbreeScene(context));
+    result->m_geometry = SceneGeometry::gather(scene, pose, movable);
     result->m_device.reset(rtcNewDevice(nullptr));
     if (!result->m_device)
         return fail(errorCode(rtcGetDeviceError(nullptr)),
                     "Embree could not make a device; is this processor supported?");
+    rtcSetDeviceMemoryMonitorFunction(result->m_device.get(), countBytes, &result->m_allocated);
     // Within the arena Embree's tasks keep to the context's threads; its own "threads" option would cap all of TBB.
-    context.impl().arena.execute([&] { result->build(); });
-    if (const RTCError error = rtcGetDeviceError(result->m_device.get()); error != RTC_ERROR_NONE)
-        return fail(errorCode(error), fmt::format("Embree could not build the scene (its error code {}); use fewer "
-                                                  "triangles or free memory",
-                                                  int(error)));
+    context.impl().arena.execute([&] { result->build(bool(movable)); });
+    if (auto checked = result->check(); !checked) return tl::unexpected(checked.error());
     return result;
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, "not enough memory for the scene's triangles; use fewer triangles");
+}
+
+Result<void> EmbreeScene::check() {
+    const RTCError error = rtcGetDeviceError(m_device.get());
+    if (error == RTC_ERROR_NONE) return {};
+    return fail(errorCode(error), fmt::format("Embree could not build the scene (its error code {}); use fewer "
+                                              "triangles or free memory",
+                                              int(error)));
+}
+
+Result<void> EmbreeScene::place(const ScenePose& pose) {
+    auto placements = movedPlacements(m_geometry.placements, pose);
+    if (!placements) return tl::unexpected(placements.error());
+    m_geometry.placements = std::move(*placements);
+    for (std::size_t i = 0; i < m_geometry.placements.size(); ++i) {
+        const RTCGeometry instance = rtcGetGeometry(m_top.get(), kFirstInstance + unsigned(i));
+        rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &m_geometry.placements[i].toWorld[0][0]);
+        rtcCommitGeometry(instance);
+    }
+    m_context.impl().arena.execute([&] { commitTop(); });
+    return check();
 }
 
 }  // namespace probegi

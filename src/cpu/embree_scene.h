@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -15,15 +17,23 @@ struct EmbreeFilterData {
     const SurfaceMaterial* materials;
 };
 
-/// A SceneGeometry as Embree sees it: each placement is an Embree instance. Immutable once made.
+/// A SceneGeometry as Embree sees it: each placement is an Embree instance.
 /// Geometry numbers in every Embree scene are SurfaceGroup's; instances follow from kFirstInstance.
 class EmbreeScene {
 public:
     static constexpr unsigned kFirstInstance = 2;
 
+    /// Where `movable` is given, the instances that it names are placed, and the top level is built to change.
     /// Errors: outOfMemory, invalidArgument (what Embree says).
     static Result<std::unique_ptr<EmbreeScene>> create(const Context& context, const Scene& scene,
-                                                       const ScenePose& pose);
+                                                       const ScenePose& pose, const InstancePredicate& movable = {});
+
+    /// Moves the placements. Errors: those of movedPlacements, and what Embree says.
+    Result<void> place(const ScenePose& pose);
+
+    /// Bytes that Embree has asked for since the scene was made, freed ones included: what builds cost, without a
+    /// clock.
+    std::int64_t allocatedBytes() const noexcept { return m_allocated; }
 
     RTCScene handle() const noexcept { return m_top.get(); }
     const Bounds& bounds() const noexcept { return m_bounds; }
@@ -35,11 +45,16 @@ public:
     }
 
 private:
-    EmbreeScene() = default;
-    void build();
-    EmbreeSceneHandle makeScene(const SurfaceGroup& group);
+    explicit EmbreeScene(const Context& context) : m_context(context) {}
+    void build(bool topMoves);
+    void commitTop();
+    /// What Embree complains of since it was last asked.
+    Result<void> check();
+    EmbreeSceneHandle makeScene(const SurfaceGroup& group, bool moves);
     void attachMesh(RTCScene scene, const SurfaceMesh& mesh, int geometry);
 
+    Context m_context;
+    std::atomic<std::int64_t> m_allocated{0};
     // Declared before the Embree objects, which read the meshes in place and so must go first.
     SceneGeometry m_geometry;
     std::vector<std::unique_ptr<EmbreeFilterData>> m_filters;

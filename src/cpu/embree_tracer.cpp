@@ -1,5 +1,6 @@
 #include <cassert>
 #include <glm/geometric.hpp>
+#include <mutex>
 
 #include "cpu/embree_packets.h"
 #include "cpu/embree_scene.h"
@@ -14,12 +15,17 @@ namespace {
 /// Of the scene's diagonal: how far apart the origins of coherent rays may be.
 constexpr float kCoherentSpread = 1.0f / 64.0f;
 
-class EmbreeTracer final : public Tracer {
+class EmbreeTracer final : public MovableTracer {
 public:
-    EmbreeTracer(std::unique_ptr<EmbreeScene> scene, EmitterSet emitters)
-        : m_scene(std::move(scene)),
-          m_emitters(std::move(emitters)),
-          m_originSpread(kCoherentSpread * glm::length(m_scene->bounds().size())) {}
+    EmbreeTracer(const Context& context, const Scene& scene, std::unique_ptr<EmbreeScene> traced,
+                 EmitterGeometry emitters)
+        : m_context(context),
+          m_source(scene),
+          m_scene(std::move(traced)),
+          m_emitterGeometry(std::move(emitters)),
+          m_emitters(m_emitterGeometry.placed()) {
+        measure();
+    }
 
     void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override {
         assert(rays.size() == hits.size());
@@ -34,7 +40,29 @@ public:
     void surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const override {
         assert(rays.size() == hits.size() && rays.size() == out.size());
         for (std::size_t i = 0; i < rays.size(); ++i)
-            if (hits[i].valid()) out[i] = surface(rays[i], hits[i]);
+            if (hits[i].valid()) out[i] = surface(rays[i], hits[i], m_scene->geometry().materials, 0);
+    }
+
+    void filteredSurfaces(std::span<const Ray> rays, std::span<const Hit> hits, float spread,
+                          std::span<Surface> out) const override {
+        assert(rays.size() == hits.size() && rays.size() == out.size());
+        // Whoever draws no pictures needs no mip levels. The first call makes them, even one without rays.
+        std::call_once(m_filteredOnce, [&] {
+            m_mips = MipMaps(m_context, m_source);
+            m_filtered = makeSurfaceMaterials(m_source, m_mips);
+        });
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            if (hits[i].valid()) out[i] = surface(rays[i], hits[i], m_filtered, spread);
+    }
+
+    Result<void> setPose(const ScenePose& pose) override {
+        if (auto placed = m_scene->place(pose); !placed) return placed;
+        bool lamps = false;
+        for (const Placement& p : m_scene->geometry().placements)
+            lamps = m_emitterGeometry.place(p.node, p.toWorld) || lamps;
+        if (lamps) m_emitters = m_emitterGeometry.placed();
+        measure();
+        return {};
     }
 
     Bounds bounds() const override { return m_scene->bounds(); }
@@ -43,27 +71,48 @@ public:
 private:
     EmbreePackets packets() const { return {m_scene->handle(), m_originSpread, m_scene->instanced()}; }
 
-    Surface surface(const Ray& ray, const Hit& hit) const {
+    Surface surface(const Ray& ray, const Hit& hit, std::span<const SurfaceMaterial> materials, float spread) const {
         const SceneGeometry& geometry = m_scene->geometry();
-        if (hit.instance < 0)
-            return shadeHit(geometry.world.mesh(hit.geometry), geometry.materials, hit, ray.direction);
+        if (hit.instance < 0) return shadeHit(geometry.world.mesh(hit.geometry), materials, hit, ray.direction, spread);
         const Placement& placement = m_scene->placement(hit.instance);
-        return shadeHit(geometry.group(placement).mesh(hit.geometry), geometry.materials, hit, ray.direction,
-                        placement.toWorld, placement.normalToWorld);
+        return shadeHit(geometry.group(placement).mesh(hit.geometry), materials, hit, ray.direction, placement.toWorld,
+                        placement.normalToWorld, spread);
     }
 
+    void measure() { m_originSpread = kCoherentSpread * glm::length(m_scene->bounds().size()); }
+
+    Context m_context;
+    const Scene& m_source;
     std::unique_ptr<EmbreeScene> m_scene;
+    EmitterGeometry m_emitterGeometry;
     EmitterSet m_emitters;
-    float m_originSpread;
+    float m_originSpread = 0;
+    mutable std::once_flag m_filteredOnce;
+    mutable MipMaps m_mips;
+    mutable std::vector<SurfaceMaterial> m_filtered;  // with mip levels
 };
+
+Result<std::unique_ptr<MovableTracer>> make(const Context& context, const Scene& scene, const ScenePose& pose,
+                                            const InstancePredicate& movable) {
+    return EmbreeScene::create(context, scene, pose, movable).map([&](std::unique_ptr<EmbreeScene> made) {
+        return std::unique_ptr<MovableTracer>(
+            std::make_unique<EmbreeTracer>(context, scene, std::move(made), EmitterGeometry(scene, pose)));
+    });
+}
 
 }  // namespace
 
 Result<std::unique_ptr<Tracer>> makeEmbreeTracer(const Context& context, const Scene& scene, const ScenePose& pose) {
-    return EmbreeScene::create(context, scene, pose).map([&](std::unique_ptr<EmbreeScene> made) {
-        return std::unique_ptr<Tracer>(
-            std::make_unique<EmbreeTracer>(std::move(made), EmitterGeometry(scene, pose).placed()));
+    return make(context, scene, pose, {}).map([](std::unique_ptr<MovableTracer> made) {
+        return std::unique_ptr<Tracer>(std::move(made));
     });
+}
+
+Result<std::unique_ptr<MovableTracer>> makeMovableEmbreeTracer(const Context& context, const Scene& scene,
+                                                               const ScenePose& pose, const MovableDesc& desc) {
+    if (auto checked = checkNodes(scene, desc.nodes, "MovableDesc::nodes"); !checked)
+        return tl::unexpected(checked.error());
+    return make(context, scene, pose, movableInstances(scene, desc.animated, desc.nodes));
 }
 
 }  // namespace probegi

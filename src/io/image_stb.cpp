@@ -8,6 +8,7 @@
 #include "io/refused.h"
 #include "io/stb.h"
 #include "kernels/colour.h"
+#include "kernels/tone_map.h"
 
 namespace probegi::io {
 
@@ -133,10 +134,12 @@ std::vector<std::uint8_t> encodePng(const HdrImage& image, const ToneMap& toneMa
     }
     std::vector<std::uint8_t> codes;
     codes.reserve(3 * image.pixels.size());
-    for (const glm::vec3& pixel : image.pixels) {
-        const glm::vec3 display = toDisplay(pixel, toneMap);
-        for (int c = 0; c < 3; ++c) codes.push_back(std::uint8_t(std::lround(255.0f * display[c])));
-    }
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const glm::vec3 steps = 255.0f * toDisplay(image.at(x, y), toneMap);
+            const float threshold = toneMap.dither ? kernels::ditherThreshold(x, y) : 0.5f;
+            for (int c = 0; c < 3; ++c) codes.push_back(std::uint8_t(steps[c] + threshold));
+        }
     std::vector<std::uint8_t> bytes;
     if (!stbi_write_png_to_func(appendBytes, &bytes, image.width, image.height, 3, codes.data(), 3 * image.width)) {
         refuse(ErrorCode::outOfMemory, "the PNG of {} x {} pixels cannot be encoded", image.width, image.height);

@@ -45,6 +45,8 @@ struct GpuTexture {
     vec3 rowU;  // the uv transform's upper two rows
     vec3 rowV;
     uint flags;  // textureWrapU() and so on
+    int levels;  // mip levels, 1: none but level 0
+    uvec2 mips;  // bytes from the start of all texels to level 1; the others follow
 };
 
 struct GpuMaterial {
@@ -98,7 +100,7 @@ struct SceneAddresses {
     uvec2 instances;
     uvec2 materials;
     uvec2 textures;
-    uvec2 texels;     // RGBA, 8 bits each, R in the lowest byte
+    uvec2 texels;     // RGBA, 8 bits each, R in the lowest byte; level 0 of all images and their mips
     uvec2 srgbTable;  // 256 floats: the linear value of each 8-bit sRGB code
     uvec2 lights;
     uvec2 skyPixels;  // vec3, row-major, top row first

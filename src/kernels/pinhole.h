@@ -29,6 +29,11 @@ KERNEL_FN vec3 pinholeDirection(PinholeCamera camera, float x, float y) {
     return normalize(camera.corner + camera.pixelRight * x + camera.pixelDown * y);
 }
 
+// Angle in radians that one of `samplesPerAxis` rays across a pixel stands for, in the middle of the picture.
+KERNEL_FN float pinholeSpread(PinholeCamera camera, int samplesPerAxis) {
+    return length(camera.pixelRight) / float(samplesPerAxis);
+}
+
 KERNELS_END
 
 #endif

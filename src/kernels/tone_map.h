@@ -41,6 +41,16 @@ KERNEL_FN vec3 toneMap(vec3 linear, float exposure, bool filmic) {
     return vec3(encodeSrgb(v.x), encodeSrgb(v.y), encodeSrgb(v.z));
 }
 
+// What is added to a value in steps of an 8-bit display before it is rounded down, 1/128..127/128: the 8 x 8 matrix of
+// Bayer ("An optimum method for two-level rendition of continuous-tone pictures", 1973), each of its 64 levels once.
+// Kept half a level away from 0 and 1, so that a value on a step stays there whatever the rounding before. x, y >= 0.
+KERNEL_FN float ditherThreshold(int x, int y) {
+    const int odd = x ^ y;
+    const int level =
+        ((odd & 1) << 5) | ((y & 1) << 4) | ((odd & 2) << 2) | ((y & 2) << 1) | ((odd & 4) >> 1) | ((y & 4) >> 2);
+    return (float(level) + 0.5f) / 64.0f;
+}
+
 KERNELS_END
 
 #endif

@@ -54,7 +54,14 @@ TileRenderer::TileRenderer(const Tracer& tracer, const Lighting& lighting, const
       m_desc(desc),
       m_camera(kernels::makePinhole(desc.camera.position, desc.camera.forward, desc.camera.up, desc.camera.yfov,
                                     desc.width, desc.height)),
-      m_sceneMagnitude(sceneMagnitude(tracer.bounds())) {}
+      m_sceneMagnitude(sceneMagnitude(tracer.bounds())) {
+    // What the tracer prepares for filtering, it prepares here, on all threads.
+    tracer.filteredSurfaces({}, {}, spread(), {});
+}
+
+float TileRenderer::spread() const {
+    return kernels::pinholeSpread(m_camera, m_desc.samplesPerAxis);
+}
 
 Result<void> TileRenderer::render(const Tile& tile, TileSamples& samples, Picture& picture) {
     auto start = Clock::now();
@@ -81,7 +88,7 @@ void TileRenderer::castPrimary(const Tile& tile, TileSamples& samples) const {
     samples.hits.resize(samples.rays.size());
     samples.surfaces.resize(samples.rays.size());
     m_tracer.closestHits(samples.rays, samples.hits);
-    m_tracer.surfaces(samples.rays, samples.hits, samples.surfaces);
+    m_tracer.filteredSurfaces(samples.rays, samples.hits, spread(), samples.surfaces);
     samples.seen.clear();
     for (std::uint32_t i = 0; i < samples.hits.size(); ++i)
         if (samples.hits[i].valid()) samples.seen.push_back(i);

@@ -22,6 +22,8 @@ public:
     PictureTimes threadTimes() const;
 
 private:
+    /// Of the cone that a primary ray stands for, radians.
+    float spread() const;
     void castPrimary(const Tile& tile, TileSamples& samples) const;
     Result<void> queryField(TileSamples& samples) const;
     void resolve(const Tile& tile, const TileSamples& samples, Picture& picture) const;

@@ -1,9 +1,12 @@
 #include "surface/scene_geometry.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace probegi {
@@ -67,6 +70,31 @@ InstancePredicate movableInstances(const Scene& scene, bool animated, std::span<
     return [moves = std::move(moves)](const Instance& instance) {
         return instance.node >= 0 && moves[std::size_t(instance.node)];
     };
+}
+
+Result<std::vector<Placement>> movedPlacements(std::vector<Placement> placements, const ScenePose& pose) {
+    std::map<int, glm::mat4> transforms;
+    for (const Instance& instance : pose.instances) transforms[instance.node] = instance.toWorld;
+    for (Placement& placement : placements) {
+        const auto found = transforms.find(placement.node);
+        if (found == transforms.end())
+            return fail(ErrorCode::invalidArgument,
+                        fmt::format("the pose does not place node {}, so it is not one of this scene", placement.node));
+        if (!invertible(found->second))
+            return fail(ErrorCode::invalidArgument,
+                        fmt::format("the pose flattens node {}; move it out of sight instead", placement.node));
+        placement.toWorld = found->second;
+        placement.normalToWorld = normalMatrix(found->second);
+    }
+    return placements;
+}
+
+Result<void> checkNodes(const Scene& scene, std::span<const int> nodes, const char* what) {
+    for (const int node : nodes)
+        if (node < 0 || std::size_t(node) >= scene.nodes.size())
+            return fail(ErrorCode::invalidArgument,
+                        fmt::format("{} has {}, but the scene has {} nodes", what, node, scene.nodes.size()));
+    return {};
 }
 
 bool invertible(const glm::mat4& m) {

@@ -46,6 +46,12 @@ InstancePredicate animatedInstances(const Scene& scene);
 /// The nodes must be the scene's.
 InstancePredicate movableInstances(const Scene& scene, bool animated, std::span<const int> nodes);
 
+/// The placements where `pose` has their nodes. Errors: invalidArgument (a node that the pose does not place, or one
+/// whose transform has no inverse).
+Result<std::vector<Placement>> movedPlacements(std::vector<Placement> placements, const ScenePose& pose);
+/// Errors: invalidArgument (a node that the scene has not; `what` names the list).
+Result<void> checkNodes(const Scene& scene, std::span<const int> nodes, const char* what);
+
 /// Whether a transform can be undone. One that flattens the mesh cannot, up to rounding.
 bool invertible(const glm::mat4& m);
 

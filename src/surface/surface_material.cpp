@@ -4,8 +4,9 @@ namespace probegi {
 
 namespace {
 
-TextureSampler makeSampler(const Scene& scene, const TextureRef& ref) {
-    return ref.image < 0 ? TextureSampler() : TextureSampler(ref, scene.images[std::size_t(ref.image)]);
+TextureSampler makeSampler(const Scene& scene, const TextureRef& ref, TexelKind kind, const MipMaps& mips) {
+    if (ref.image < 0) return TextureSampler();
+    return TextureSampler(ref, scene.images[std::size_t(ref.image)], mips.of(ref.image, kind));
 }
 
 /// BLEND counts as MASK with cutoff 0.5 (docs/conventions.md says why).
@@ -23,17 +24,17 @@ float alphaCutoff(const Material& material) {
 
 }  // namespace
 
-SurfaceMaterial::SurfaceMaterial(const Scene& scene, const Material& material)
+SurfaceMaterial::SurfaceMaterial(const Scene& scene, const Material& material, const MipMaps& mips)
     : baseColor(material.baseColor),
       metallic(material.metallic),
       emission(material.emission),
       roughness(material.roughness),
       normalScale(material.normalScale),
       doubleSided(material.doubleSided),
-      baseColorTexture(makeSampler(scene, material.baseColorTexture)),
-      metallicRoughnessTexture(makeSampler(scene, material.metallicRoughnessTexture)),
-      normalTexture(makeSampler(scene, material.normalTexture)),
-      emissiveTexture(makeSampler(scene, material.emissiveTexture)) {
+      baseColorTexture(makeSampler(scene, material.baseColorTexture, TexelKind::color, mips)),
+      metallicRoughnessTexture(makeSampler(scene, material.metallicRoughnessTexture, TexelKind::data, mips)),
+      normalTexture(makeSampler(scene, material.normalTexture, TexelKind::data, mips)),
+      emissiveTexture(makeSampler(scene, material.emissiveTexture, TexelKind::color, mips)) {
     const float cutoff = alphaCutoff(material);
     if (cutoff <= 0.0f) return;
     // Filters cost time at every candidate hit: only materials whose texture straddles the cutoff get one.
@@ -48,10 +49,10 @@ bool SurfaceMaterial::usesSecondUv() const noexcept {
            normalTexture.texCoord() == 1 || emissiveTexture.texCoord() == 1;
 }
 
-std::vector<SurfaceMaterial> makeSurfaceMaterials(const Scene& scene) {
+std::vector<SurfaceMaterial> makeSurfaceMaterials(const Scene& scene, const MipMaps& mips) {
     std::vector<SurfaceMaterial> materials;
     materials.reserve(scene.materials.size());
-    for (const Material& material : scene.materials) materials.emplace_back(scene, material);
+    for (const Material& material : scene.materials) materials.emplace_back(scene, material, mips);
     return materials;
 }
 

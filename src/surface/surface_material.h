@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "surface/mip_maps.h"
 #include "surface/texture_sampler.h"
 
 namespace probegi {
@@ -13,10 +14,10 @@ enum class Opacity : std::uint8_t {
     absent,  ///< no hit ever counts: the triangles are left out
 };
 
-/// A Material with its textures resolved, ready for look-ups. Refers to the scene's texels.
+/// A Material with its textures resolved, ready for look-ups. Refers to the scene's texels and to `mips`.
 struct SurfaceMaterial {
     SurfaceMaterial() = default;
-    SurfaceMaterial(const Scene& scene, const Material& material);
+    SurfaceMaterial(const Scene& scene, const Material& material, const MipMaps& mips = {});
 
     bool normalMapped() const noexcept { return normalTexture.present() && normalScale != 0.0f; }
     bool emissive() const noexcept { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
@@ -37,7 +38,7 @@ struct SurfaceMaterial {
     TextureSampler emissiveTexture;
 };
 
-/// All materials of a scene, in its order.
-std::vector<SurfaceMaterial> makeSurfaceMaterials(const Scene& scene);
+/// All materials of a scene, in its order. Without `mips` look-ups stay on level 0.
+std::vector<SurfaceMaterial> makeSurfaceMaterials(const Scene& scene, const MipMaps& mips = {});
 
 }  // namespace probegi

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/common.hpp>
 
 #include "kernels/colour.h"
 #include "kernels/texture.h"
@@ -28,8 +29,10 @@ float srgbToLinear(std::uint8_t code) noexcept {
     return kSrgbToLinear[code];
 }
 
-TextureSampler::TextureSampler(const TextureRef& ref, const TextureImage& image)
+TextureSampler::TextureSampler(const TextureRef& ref, const TextureImage& image, std::span<const std::uint8_t> mips)
     : m_texels(image.rgba.data()),
+      m_mips(mips.data()),
+      m_levels(mips.empty() ? 1 : kernels::mipLevels(image.width, image.height)),
       m_width(image.width),
       m_height(image.height),
       m_rowU(ref.uvTransform[0][0], ref.uvTransform[1][0], ref.uvTransform[2][0]),
@@ -41,33 +44,62 @@ TextureSampler::TextureSampler(const TextureRef& ref, const TextureImage& image)
 
 // Flattened: were texelSpan's results returned in registers, the two indices would be packed through memory, and
 // reading them back as one word stalls longer than all the rest of the look-up takes.
-[[gnu::flatten]] TextureSampler::Footprint TextureSampler::footprint(glm::vec2 uv) const noexcept {
+[[gnu::flatten]] TextureSampler::Footprint TextureSampler::footprint(glm::vec2 uv, std::int32_t width,
+                                                                     std::int32_t height) const noexcept {
     const glm::vec2 at = kernels::transformUv(m_rowU, m_rowV, uv);
-    const kernels::TexelSpan x = kernels::texelSpan(at.x, m_width, int(m_wrapU), m_nearest);
-    const kernels::TexelSpan y = kernels::texelSpan(at.y, m_height, int(m_wrapV), m_nearest);
-    const auto offset = [this](std::int32_t i, std::int32_t j) {
-        return 4u * (std::uint32_t(j) * std::uint32_t(m_width) + std::uint32_t(i));
+    const kernels::TexelSpan x = kernels::texelSpan(at.x, width, int(m_wrapU), m_nearest);
+    const kernels::TexelSpan y = kernels::texelSpan(at.y, height, int(m_wrapV), m_nearest);
+    const auto offset = [width](std::int32_t i, std::int32_t j) {
+        return 4u * (std::uint32_t(j) * std::uint32_t(width) + std::uint32_t(i));
     };
     return {
         {offset(x.first, y.first), offset(x.second, y.first), offset(x.first, y.second), offset(x.second, y.second)},
         kernels::bilinearWeights(x.fraction, y.fraction)};
 }
 
+float TextureSampler::texelsPerUvArea() const noexcept {
+    return kernels::texelsPerUvArea(m_rowU, m_rowV, m_width, m_height);
+}
+
+TextureSampler::Level TextureSampler::level(int number) const noexcept {
+    if (number == 0) return {m_texels, m_width, m_height};
+    return {m_mips + 4 * std::size_t(kernels::mipOffset(m_width, m_height, number)), kernels::mipSize(m_width, number),
+            kernels::mipSize(m_height, number)};
+}
+
 glm::vec3 TextureSampler::color(glm::vec2 uv) const noexcept {
-    if (!present()) return glm::vec3(1.0f);
-    const Footprint f = footprint(uv);
+    return present() ? color(level(0), uv) : glm::vec3(1.0f);
+}
+
+glm::vec3 TextureSampler::data(glm::vec2 uv) const noexcept {
+    return present() ? data(level(0), uv) : glm::vec3(1.0f);
+}
+
+glm::vec3 TextureSampler::color(glm::vec2 uv, float at) const noexcept {
+    const int finer = int(at);
+    const glm::vec3 texel = color(level(finer), uv);
+    return at == float(finer) ? texel : glm::mix(texel, color(level(finer + 1), uv), at - float(finer));
+}
+
+glm::vec3 TextureSampler::data(glm::vec2 uv, float at) const noexcept {
+    const int finer = int(at);
+    const glm::vec3 texel = data(level(finer), uv);
+    return at == float(finer) ? texel : glm::mix(texel, data(level(finer + 1), uv), at - float(finer));
+}
+
+glm::vec3 TextureSampler::color(const Level& on, glm::vec2 uv) const noexcept {
+    const Footprint f = footprint(uv, on.width, on.height);
     const auto fetch = [&](int i) {
-        const std::uint8_t* texel = m_texels + f.offset[i];
+        const std::uint8_t* texel = on.texels + f.offset[i];
         return glm::vec3(kSrgbToLinear[texel[0]], kSrgbToLinear[texel[1]], kSrgbToLinear[texel[2]]);
     };
     return kernels::blendTexels(f.weights, fetch(0), fetch(1), fetch(2), fetch(3));
 }
 
-glm::vec3 TextureSampler::data(glm::vec2 uv) const noexcept {
-    if (!present()) return glm::vec3(1.0f);
-    const Footprint f = footprint(uv);
+glm::vec3 TextureSampler::data(const Level& on, glm::vec2 uv) const noexcept {
+    const Footprint f = footprint(uv, on.width, on.height);
     const auto fetch = [&](int i) {
-        const std::uint8_t* texel = m_texels + f.offset[i];
+        const std::uint8_t* texel = on.texels + f.offset[i];
         return glm::vec3(texel[0], texel[1], texel[2]);
     };
     return kernels::blendTexels(f.weights, fetch(0), fetch(1), fetch(2), fetch(3)) * (1.0f / 255.0f);
@@ -75,7 +107,7 @@ glm::vec3 TextureSampler::data(glm::vec2 uv) const noexcept {
 
 float TextureSampler::alpha(glm::vec2 uv) const noexcept {
     if (!present()) return 1.0f;
-    const Footprint f = footprint(uv);
+    const Footprint f = footprint(uv, m_width, m_height);
     const auto fetch = [&](int i) { return float(m_texels[f.offset[i] + 3]); };
     return kernels::blendTexels(f.weights, fetch(0), fetch(1), fetch(2), fetch(3)) * (1.0f / 255.0f);
 }

@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 
 #include "probegi/scene.h"
 
@@ -13,21 +14,30 @@ namespace probegi {
 float srgbToLinear(std::uint8_t code) noexcept;
 
 /// A TextureRef resolved for look-ups. Copies no texels: the image's pixels must outlive the sampler.
-/// Filtering happens on linear values: each texel is decoded first, then blended. Look-ups are on mip level 0: a Ray
-/// carries no footprint, and an unfiltered look-up is unbiased, so noise falls with the number of rays.
+/// Filtering happens on linear values: each texel is decoded first, then blended. Look-ups without a level are on mip
+/// level 0: what many rays average needs no filter, for an unfiltered look-up is unbiased.
 class TextureSampler {
 public:
     /// No texture: all look-ups give 1.
     TextureSampler() = default;
-    TextureSampler(const TextureRef& ref, const TextureImage& image);
+    /// `mips`: what makeMips() makes of the image, which must outlive the sampler; empty: level 0 is all there is.
+    TextureSampler(const TextureRef& ref, const TextureImage& image, std::span<const std::uint8_t> mips = {});
 
     bool present() const noexcept { return m_texels != nullptr; }
     int texCoord() const noexcept { return m_texCoord; }
 
+    /// Levels that look-ups may name.
+    int levels() const noexcept { return m_levels; }
+    /// Texels to an area of 1 in the mesh's uv space.
+    float texelsPerUvArea() const noexcept;
+
     /// RGB decoded from sRGB. uv is the mesh's, before the material's uv transform; not finite: treated as 0.
     glm::vec3 color(glm::vec2 uv) const noexcept;
+    /// The same between two mip levels, 0 <= level <= levels() - 1.
+    glm::vec3 color(glm::vec2 uv, float level) const noexcept;
     /// RGB as it is stored, divided by 255.
     glm::vec3 data(glm::vec2 uv) const noexcept;
+    glm::vec3 data(glm::vec2 uv, float level) const noexcept;
     /// Alpha divided by 255.
     float alpha(glm::vec2 uv) const noexcept;
     /// Bounds of alpha over all texels, 0..1.
@@ -39,9 +49,19 @@ private:
         std::uint32_t offset[4];
         glm::vec4 weights;
     };
-    Footprint footprint(glm::vec2 uv) const noexcept;
+    Footprint footprint(glm::vec2 uv, std::int32_t width, std::int32_t height) const noexcept;
+    /// One mip level's texels.
+    struct Level {
+        const std::uint8_t* texels;
+        std::int32_t width, height;
+    };
+    Level level(int number) const noexcept;
+    glm::vec3 color(const Level& level, glm::vec2 uv) const noexcept;
+    glm::vec3 data(const Level& level, glm::vec2 uv) const noexcept;
 
     const std::uint8_t* m_texels = nullptr;
+    const std::uint8_t* m_mips = nullptr;
+    std::int32_t m_levels = 1;
     std::int32_t m_width = 0;
     std::int32_t m_height = 0;
     glm::vec3 m_rowU{1, 0, 0};  ///< the uv transform's upper two rows

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <map>
-
 #include "bvh/binary_tree.h"
 #include "bvh/wide_bvh.h"
 #include "surface/lighting.h"
@@ -23,23 +21,13 @@ TracerKind chooseTracer(const Device& device, TracerKind wanted) {
     return device.rayQuery() && inHardware ? TracerKind::rayQuery : TracerKind::bvh;
 }
 
-// Where a pose puts each node's instance.
-std::map<int, glm::mat4> transformsByNode(const ScenePose& pose) {
-    std::map<int, glm::mat4> transforms;
-    for (const Instance& instance : pose.instances) transforms[instance.node] = instance.toWorld;
-    return transforms;
-}
-
 }  // namespace
 
 GpuScene::Impl::Impl(const Context& context, const Device& d, const Scene& scene, const ScenePose& pose,
                      const GpuSceneDesc& desc)
     : device(d) {
     const TracerKind kind = chooseTracer(device, desc.tracer);
-    for (const int node : desc.movableNodes)
-        if (node < 0 || std::size_t(node) >= scene.nodes.size())
-            throw Failure(ErrorCode::invalidArgument,
-                          fmt::format("movableNodes has {}, but the scene has {} nodes", node, scene.nodes.size()));
+    orThrow(checkNodes(scene, desc.movableNodes, "movableNodes"));
     const SceneGeometry geometry =
         SceneGeometry::gather(scene, pose, movableInstances(scene, desc.movable, desc.movableNodes));
     placements = geometry.placements;
@@ -49,7 +37,7 @@ GpuScene::Impl::Impl(const Context& context, const Device& d, const Scene& scene
     for (const SurfaceGroup& group : geometry.groups) groupBounds.push_back(group.bounds());
     emitterGeometry = EmitterGeometry(scene, pose);
     emitters = emitterGeometry.placed();
-    data = packScene(geometry, emitters, scene);
+    data = packScene(geometry, emitters, scene, MipMaps(context, scene));
     upload();
     tracer = kind == TracerKind::rayQuery ? makeRayQuerySceneTracer(device, geometry, data, vertices.address())
                                           : makeBvhSceneTracer(context, device, geometry, staging);
@@ -154,19 +142,12 @@ void GpuScene::releaseStaging() noexcept {
 }
 
 Result<void> GpuScene::recordPose(VkCommandBuffer commands, const ScenePose& pose) {
-    const std::map<int, glm::mat4> transforms = transformsByNode(pose);
-    std::vector<Placement> placements = m_impl->placements;
-    for (Placement& placement : placements) {
-        const auto found = transforms.find(placement.node);
-        if (found == transforms.end())
-            return fail(ErrorCode::invalidArgument, "the pose is not one of the scene that was uploaded");
-        placement.toWorld = found->second;
-        placement.normalToWorld = normalMatrix(found->second);
-    }
+    auto placements = movedPlacements(m_impl->placements, pose);
+    if (!placements) return tl::unexpected(placements.error());
     return guarded("moving instances", [&] {
         std::vector<kernels::GpuInstance> instances;
-        for (const Placement& placement : placements) instances.push_back(packInstance(placement));
-        m_impl->placements = std::move(placements);
+        for (const Placement& placement : *placements) instances.push_back(packInstance(placement));
+        m_impl->placements = std::move(*placements);
         m_impl->bounds = m_impl->placedBounds();
         std::vector<kernels::GpuEmitter> lamps;
         if (m_impl->placeEmitters()) lamps = packEmitters(m_impl->emitters);

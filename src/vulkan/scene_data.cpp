@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_inverse.hpp>
 #include <map>
 
+#include "kernels/texture.h"
 #include "surface/lighting.h"
 
 namespace probegi::vulkan {
@@ -17,20 +18,24 @@ static_assert(sizeof(SurfaceVertex) == sizeof(kernels::GpuVertex));
 /// Stores each image and each use of one once.
 class TexturePacker {
 public:
-    TexturePacker(const Scene& scene, SceneData& data) : m_scene(scene), m_data(data) {}
+    TexturePacker(const Scene& scene, const MipMaps& mips, SceneData& data)
+        : m_scene(scene), m_mipMaps(mips), m_data(data) {}
 
     /// Index of the record; -1 for no texture.
-    int add(const TextureRef& ref) {
+    int add(const TextureRef& ref, TexelKind kind) {
         if (ref.image < 0) return -1;
         const TextureImage& image = m_scene.images[std::size_t(ref.image)];
         const glm::mat3& m = ref.uvTransform;
+        const std::span<const std::uint8_t> mips = m_mipMaps.of(ref.image, kind);
         const kernels::GpuTexture texture{
             packAddress(texelBytes(ref.image)),
             image.width,
             image.height,
             {m[0][0], m[1][0], m[2][0]},
             {m[0][1], m[1][1], m[2][1]},
-            kernels::packTextureFlags(int(ref.wrapU), int(ref.wrapV), ref.nearest, ref.texCoord)};
+            kernels::packTextureFlags(int(ref.wrapU), int(ref.wrapV), ref.nearest, ref.texCoord),
+            mips.empty() ? 1 : kernels::mipLevels(image.width, image.height),
+            mips.empty() ? glm::uvec2(0) : packAddress(mipBytes(ref.image, kind, mips))};
         Words words;
         std::memcpy(words.data(), &texture, sizeof(texture));
         const auto [found, isNew] = m_textures.try_emplace(words, int(m_data.textures.size()));
@@ -43,18 +48,27 @@ private:
 
     std::uint64_t texelBytes(int image) {
         const auto [found, isNew] = m_images.try_emplace(image, 4 * std::uint64_t(m_data.texels.size()));
-        if (isNew) {
-            const std::vector<std::uint8_t>& rgba = m_scene.images[std::size_t(image)].rgba;
-            const std::size_t first = m_data.texels.size();
-            m_data.texels.resize(first + rgba.size() / 4);
-            std::memcpy(m_data.texels.data() + first, rgba.data(), rgba.size());
-        }
+        if (isNew) append(m_scene.images[std::size_t(image)].rgba);
         return found->second;
     }
 
+    std::uint64_t mipBytes(int image, TexelKind kind, std::span<const std::uint8_t> rgba) {
+        const auto [found, isNew] = m_mips.try_emplace({image, kind}, 4 * std::uint64_t(m_data.texels.size()));
+        if (isNew) append(rgba);
+        return found->second;
+    }
+
+    void append(std::span<const std::uint8_t> rgba) {
+        const std::size_t first = m_data.texels.size();
+        m_data.texels.resize(first + rgba.size() / 4);
+        std::memcpy(m_data.texels.data() + first, rgba.data(), rgba.size());
+    }
+
     const Scene& m_scene;
+    const MipMaps& m_mipMaps;
     SceneData& m_data;
     std::map<int, std::uint64_t> m_images;
+    std::map<std::pair<int, TexelKind>, std::uint64_t> m_mips;
     std::map<Words, int> m_textures;
 };
 
@@ -103,7 +117,8 @@ void reserve(const SceneGeometry& geometry, SceneData& data) {
 
 }  // namespace
 
-SceneData packScene(const SceneGeometry& geometry, const EmitterSet& emitters, const Scene& scene) {
+SceneData packScene(const SceneGeometry& geometry, const EmitterSet& emitters, const Scene& scene,
+                    const MipMaps& mips) {
     SceneData data;
     reserve(geometry, data);
     std::vector<bool> shown(scene.materials.size(), false);
@@ -111,17 +126,17 @@ SceneData packScene(const SceneGeometry& geometry, const EmitterSet& emitters, c
     for (const SurfaceGroup& group : geometry.groups) packGroup(group, data, shown);
     for (const Placement& placement : geometry.placements) data.instances.push_back(packInstance(placement));
 
-    TexturePacker textures(scene, data);
+    TexturePacker textures(scene, mips, data);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
         const SurfaceMaterial& surface = geometry.materials[i];
         kernels::GpuMaterial packed = packMaterial(surface);
         packed.emittedLuminance = emitters.luminance[i];
         if (shown[i]) {
-            packed.baseColorTexture = textures.add(material.baseColorTexture);
-            packed.metallicRoughnessTexture = textures.add(material.metallicRoughnessTexture);
-            if (surface.normalMapped()) packed.normalTexture = textures.add(material.normalTexture);
-            if (surface.emissive()) packed.emissiveTexture = textures.add(material.emissiveTexture);
+            packed.baseColorTexture = textures.add(material.baseColorTexture, TexelKind::color);
+            packed.metallicRoughnessTexture = textures.add(material.metallicRoughnessTexture, TexelKind::data);
+            if (surface.normalMapped()) packed.normalTexture = textures.add(material.normalTexture, TexelKind::data);
+            if (surface.emissive()) packed.emissiveTexture = textures.add(material.emissiveTexture, TexelKind::color);
         }
         data.materials.push_back(packed);
     }

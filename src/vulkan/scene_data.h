@@ -17,8 +17,8 @@ static_assert(sizeof(kernels::GpuTriangle) == 16 && offsetof(kernels::GpuTriangl
 static_assert(sizeof(kernels::GpuMesh) == 20 && offsetof(kernels::GpuMesh, firstTangent) == 16);
 static_assert(sizeof(kernels::GpuInstance) == 136 && offsetof(kernels::GpuInstance, toObject) == 48 &&
               offsetof(kernels::GpuInstance, normalToWorld) == 96 && offsetof(kernels::GpuInstance, group) == 132);
-static_assert(sizeof(kernels::GpuTexture) == 44 && offsetof(kernels::GpuTexture, rowU) == 16 &&
-              offsetof(kernels::GpuTexture, flags) == 40);
+static_assert(sizeof(kernels::GpuTexture) == 56 && offsetof(kernels::GpuTexture, rowU) == 16 &&
+              offsetof(kernels::GpuTexture, flags) == 40 && offsetof(kernels::GpuTexture, mips) == 48);
 static_assert(sizeof(kernels::GpuMaterial) == 64 && offsetof(kernels::GpuMaterial, emission) == 16 &&
               offsetof(kernels::GpuMaterial, doubleSided) == 40 &&
               offsetof(kernels::GpuMaterial, emissiveTexture) == 56);
@@ -39,13 +39,14 @@ struct SceneData {
     std::vector<kernels::GpuInstance> instances;  ///< by placement
     std::vector<kernels::GpuMaterial> materials;  ///< in the scene's order
     std::vector<kernels::GpuTexture> textures;
-    std::vector<std::uint32_t> texels;  ///< RGBA8 of every image that a triangle shows, each image once
+    std::vector<std::uint32_t> texels;  ///< RGBA8 of every image that a triangle shows and of its mips, each once
     std::vector<float> srgbTable;       ///< 256 values
     std::vector<kernels::GpuEmitter> emitters;
 };
 
-/// Geometry and emitters must have been gathered from the scene.
-SceneData packScene(const SceneGeometry& geometry, const EmitterSet& emitters, const Scene& scene);
+/// Geometry, emitters and mips must have been made of the scene. Without mips look-ups stay on level 0.
+SceneData packScene(const SceneGeometry& geometry, const EmitterSet& emitters, const Scene& scene,
+                    const MipMaps& mips = {});
 
 std::vector<kernels::GpuEmitter> packEmitters(const EmitterSet& emitters);
 

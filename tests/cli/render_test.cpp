@@ -143,6 +143,47 @@ TEST(Render, PngFollowsExposure) {
     EXPECT_NE(png("0.5", false), png("0.5", true));
 }
 
+TEST(Render, AutomaticExposureIsToldAndFollowsTheLight) {
+    const TemporaryFolder folder;
+    const auto png = [&](const std::string& emission, std::vector<std::string> more) {
+        more.insert(more.begin(), {"render", "builtin:furnace", "-o", folder.file("a.png"), "--size", "32x18",
+                                   "--method", "none", "--emission", emission});
+        const ToolRun run = runTool(more);
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        EXPECT_EQ(run.err, "");
+        return std::pair(run.out, mean(readImage(folder.file("a.png")).value()));
+    };
+    // Every pixel of a furnace without bounces is the emission, which middle grey makes 0.18 of.
+    const auto [saidDim, dim] = png("0.01", {});
+    const auto [saidBright, bright] = png("100", {});
+    EXPECT_THAT(saidDim, HasSubstr("--exposure 18\n"));
+    EXPECT_THAT(saidBright, HasSubstr("--exposure 0.0018\n"));
+    EXPECT_NEAR(dim, 0.18, 2e-3);
+    EXPECT_NEAR(bright, 0.18, 2e-3);
+    const auto [saidFixed, fixed] = png("0.5", {"--exposure", "1"});
+    EXPECT_EQ(saidFixed, "");
+    EXPECT_NEAR(fixed, 0.5, 5e-3);
+    // The scene suggests 0.5 (1 - albedo) / emission, and half of it is its albedo.
+    const auto [saidScene, scene] = png("3", {"--exposure", "scene"});
+    EXPECT_EQ(saidScene, "");
+    EXPECT_NEAR(scene, 0.25, 5e-3);
+}
+
+TEST(Render, APictureThatIsNearlyBlackIsTold) {
+    const TemporaryFolder folder;
+    const auto said = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"render", "builtin:cornell", "--size", "32x18", "--method", "none", "-o"});
+        const ToolRun run = runTool(more);
+        EXPECT_EQ(run.exitCode, 0);
+        return run.err;
+    };
+    const std::string dark = said({folder.file("a.png"), "--exposure", "1e-6"});
+    EXPECT_THAT(dark, HasSubstr("warning: 100 % of '" + folder.file("a.png") + "' is nearly black at exposure 1e-06"));
+    EXPECT_THAT(dark, HasSubstr("--look-from"));
+    EXPECT_EQ(said({folder.file("a.png"), "--aov", "albedo"}), "") << "no light, no warning";
+    EXPECT_EQ(said({folder.file("a.exr")}), "") << "linear light has no exposure";
+}
+
 // Eight rays a probe do not find Cornell's lamp to a hundredth of a per cent in 128 updates, but to all of it in a few.
 TEST(Render, ACapThatIsHitIsTold) {
     const TemporaryFolder folder;

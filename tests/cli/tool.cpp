@@ -16,9 +16,9 @@ namespace probegi::test {
 
 namespace fs = std::filesystem;
 
-ToolRun runTool(const std::vector<std::string>& arguments) {
-    const TemporaryFolder folder;
-    const std::string out = folder.file("out"), err = folder.file("err");
+ToolRun runTool(const std::vector<std::string>& arguments, const fs::path& folder) {
+    const TemporaryFolder texts;
+    const std::string out = texts.file("out"), err = texts.file("err");
     std::string program = PROBEGI_TOOL;
     std::vector<std::string> copies = arguments;
     std::vector<char*> argv{program.data()};
@@ -30,6 +30,7 @@ ToolRun runTool(const std::vector<std::string>& arguments) {
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0600);
     posix_spawn_file_actions_addopen(&files, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT, 0600);
+    if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&files, folder.c_str());
     pid_t child = 0;
     const int failed = posix_spawn(&child, program.c_str(), &files, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&files);

@@ -12,8 +12,8 @@ struct ToolRun {
     std::string out, err;
 };
 
-/// Runs the program and waits for it.
-ToolRun runTool(const std::vector<std::string>& arguments);
+/// Runs the program and waits for it, in the working folder `folder` (empty: this program's own).
+ToolRun runTool(const std::vector<std::string>& arguments, const std::filesystem::path& folder = {});
 
 /// Expects a run to be refused: this exit code, nothing on stdout, one sentence on stderr with `mentions` in it.
 void expectRefused(const std::vector<std::string>& arguments, const std::string& mentions, int exitCode);

@@ -67,7 +67,7 @@ TEST_F(ImageFile, ExrKeepsEveryBit) {
 
 TEST_F(ImageFile, PngComesBackWithinHalfAStep) {
     const HdrImage image = gradient(61, 17);
-    ASSERT_TRUE(writeImage(path("a.PNG"), image));
+    ASSERT_TRUE(writeImage(path("a.PNG"), image, {.dither = false}));
     const auto back = readImage(path("a.PNG"));
     ASSERT_TRUE(back) << back.error().message;
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
@@ -75,6 +75,32 @@ TEST_F(ImageFile, PngComesBackWithinHalfAStep) {
         const glm::vec3 got = toDisplay(back->pixels[i], {});
         for (int c = 0; c < 3; ++c) ASSERT_NEAR(got[c], wanted[c], 0.5f / 255 + 1e-4f) << i;
     }
+}
+
+/// What a PNG holds of one brightness, in steps of 8 bits: 16 x 16 pixels.
+std::vector<float> stepsOf(const fs::path& file, float display) {
+    const float linear = display <= 0.04045f ? display / 12.92f : std::pow((display + 0.055f) / 1.055f, 2.4f);
+    EXPECT_TRUE(writeImage(file, HdrImage(16, 16, glm::vec3(linear))));
+    std::vector<float> steps;
+    for (const glm::vec3& pixel : readImage(file).value_or(HdrImage()).pixels)
+        steps.push_back(255.0f * toDisplay(pixel, {}).x);
+    return steps;
+}
+
+TEST_F(ImageFile, PngIsDithered) {
+    for (const float steps : {20.25f, 100.5f, 200.9f}) {
+        float sum = 0;
+        for (const float step : stepsOf(path("a.png"), steps / 255)) {
+            EXPECT_LT(std::abs(step - steps), 1.01f);
+            sum += step;
+        }
+        EXPECT_NEAR(sum / 256, steps, 0.02f) << "the mean of a block is what the steps cannot hold";
+    }
+}
+
+TEST_F(ImageFile, DitherLeavesWhatEightBitsHold) {
+    for (const float step : {0.0f, 1.0f, 77.0f, 254.0f, 255.0f})
+        for (const float got : stepsOf(path("a.png"), step / 255)) ASSERT_NEAR(got, step, 1e-3f);
 }
 
 TEST_F(ImageFile, OverwritesWhole) {

@@ -15,9 +15,15 @@ Report hostileReport() {
     scene.title = evil;
     scene.summary = evil;
     scene.figures = {{evil, evil}};
+    scene.verdict = scene.judgement = evil;
+    ReportView view;
+    view.title = evil;
     for (const char* id : {"none", "leaky", "ddgi", "reference"})
-        scene.pictures.push_back({id, std::string("title ") + id, evil, evil, "png"});
-    scene.errorMaps.push_back({"flip", "Error", evil, evil, "png"});
+        view.pictures.push_back({id, std::string("title ") + id, evil, evil, "png", "values", evil, true, evil});
+    view.maps.push_back({"flip", "Error", evil, evil, "png"});
+    scene.views = {view, view};
+    scene.probes = {view.maps[0]};
+    scene.probeKey = {{evil, evil}};
     scene.tables = {{evil, {"", evil}, {{evil, evil}}, evil}};
     return {evil, evil, {"#000000", "#ffffff"}, {scene, scene}};
 }
@@ -56,8 +62,10 @@ TEST(ReportHtml, escapesEveryTextThatItIsGiven) {
 
 TEST(ReportHtml, holdsEachPictureOnceAndAsksForNothing) {
     const std::string html = reportHtml(hostileReport());
-    EXPECT_EQ(occurrences(html, "src=\"data:image/png;base64,cG5n\""), 10u);
-    EXPECT_EQ(occurrences(html, "src="), 10u);
+    EXPECT_EQ(occurrences(html, "src=\"data:image/png;base64,cG5n\""), 22u)
+        << "two scenes, two views of five, and the probes";
+    EXPECT_EQ(occurrences(html, "src="), 22u);
+    EXPECT_EQ(occurrences(html, "data-values=\"data:image/png;base64,dmFsdWVz\""), 16u);
     EXPECT_THAT(html, Not(HasSubstr("http:")));
     EXPECT_THAT(html, Not(HasSubstr("https:")));
     EXPECT_THAT(html, HasSubstr("default-src 'none'"));
@@ -65,9 +73,26 @@ TEST(ReportHtml, holdsEachPictureOnceAndAsksForNothing) {
 
 TEST(ReportHtml, slidersBeginWithWhatMatters) {
     const std::string html = reportHtml(hostileReport());
-    EXPECT_EQ(occurrences(html, "class=\"slider\""), 4u) << "two a scene";
-    EXPECT_THAT(html, HasSubstr("<option value=\"s0-none\" selected>"));
-    EXPECT_THAT(html, HasSubstr("<option value=\"s1-reference\" selected>"));
+    EXPECT_EQ(occurrences(html, "class=\"slider\""), 8u) << "two a view";
+    EXPECT_THAT(html, HasSubstr("<option value=\"s0v0-none\" selected>"));
+    EXPECT_THAT(html, HasSubstr("<option value=\"s1v1-reference\" selected>"));
+}
+
+TEST(ReportHtml, theVerdictComesFirst) {
+    Report report = hostileReport();
+    report.scenes[0].verdict = "Matches: so it does.";
+    report.scenes[0].judgement = "matches";
+    const std::string html = reportHtml(report);
+    const std::size_t verdict = html.find("<p class=\"verdict matches\">Matches: so it does.</p>");
+    ASSERT_NE(verdict, std::string::npos);
+    EXPECT_LT(verdict, html.find("<img"));
+    EXPECT_LT(verdict, html.find("class=\"tiles\""));
+}
+
+TEST(ReportHtml, linksToTheExrBesideThePage) {
+    Report report = hostileReport();
+    report.scenes[0].views[0].pictures[0].exr = "room-none.exr";
+    EXPECT_THAT(reportHtml(report), HasSubstr("<a href=\"room-none.exr\" download>room-none.exr</a>"));
 }
 
 TEST(ReportHtml, emptyReportIsStillAPage) {

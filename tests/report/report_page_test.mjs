@@ -1,6 +1,7 @@
 // Opens a report in a headless browser and uses it as a reader would. Usage: node report_page_test.mjs REPORT.html
 import assert from "node:assert/strict";
-import { resolve } from "node:path";
+import { existsSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { Browser } from "./webdriver.mjs";
 
@@ -24,7 +25,7 @@ async function checkPictures(browser) {
     `return [...document.images].map((i) => ({ alt: i.alt, width: i.naturalWidth, source: i.src.slice(0, 22) }))`);
   assert.ok(pictures.length >= 4, `expected pictures, found ${pictures.length}`);
   for (const picture of pictures) {
-    assert.ok(picture.width > 0, "a picture did not decode");
+    assert.ok(picture.width > 0, `a picture did not decode: ${picture.alt}`);
     assert.ok(picture.alt.length > 0, "a picture has no alternative text");
     assert.equal(picture.source, "data:image/png;base64,");
   }
@@ -77,6 +78,95 @@ async function checkChoice(browser, slider) {
   assert.equal(shown.tag, "Leaking field");
 }
 
+async function checkVerdict(browser) {
+  const verdicts = await browser.run(
+    `return [...document.querySelectorAll(".verdict")].map((v) => ({ kind: v.className, text: v.textContent }))`);
+  assert.equal(verdicts.length, 2);
+  for (const verdict of verdicts) {
+    assert.match(verdict.kind, /^verdict (matches|differs|noisy|leaks)$/);
+    assert.match(verdict.text, /^(Matches|Differs|Reference too noisy|Leaks here)/);
+  }
+}
+
+/** Runs a function's text in the page that gives a promise, and waits for it. */
+const later = (browser, script, ...args) =>
+  browser.command("POST", "/execute/async", { script: `const done = arguments[arguments.length - 1];
+    (async () => { ${script} })().then(done, (error) => done("failed: " + error));`, args });
+
+/** The values behind a picture, shown at the exposure that it was made with, are the picture but for its dither. */
+async function checkValues(browser) {
+  const apart = await later(browser, `
+    const image = document.querySelector("img[data-light]"), view = image.closest(".view");
+    const made = pixelsOf(image);
+    const again = new Image();
+    again.src = await exposed(image, Number(view.dataset.exposure), view.dataset.filmic === "1");
+    await again.decode();
+    const shown = pixelsOf(again);
+    let worst = 0;
+    for (let i = 0; i < made.length; ++i) worst = Math.max(worst, Math.abs(made[i] - shown[i]));
+    return { worst, size: [made.length, shown.length] };`);
+  assert.equal(apart.size?.[0], apart.size?.[1], JSON.stringify(apart));
+  assert.ok(apart.worst <= 2, `values and picture are ${apart.worst} steps apart`);
+}
+
+/** Two stops up doubles the light twice: pictures and sliders follow, and come back. */
+async function checkExposure(browser) {
+  const light = `const image = document.querySelectorAll("figure img[data-light]")[3];
+    await image.decode();
+    const bytes = pixelsOf(image);
+    let sum = 0;
+    for (let i = 0; i < bytes.length; i += 4) sum += bytes[i] + bytes[i + 1] + bytes[i + 2];
+    const slider = document.querySelectorAll(".slider")[1].querySelector("img.right");
+    return { sum, same: slider.src === image.src, source: image.src.slice(0, 5),
+      told: document.querySelector(".exposure output").textContent };`;
+  const move = (stops) => later(browser, `
+    const view = document.querySelector(".view"), range = view.querySelector(".exposure input");
+    range.value = arguments[0];
+    range.dispatchEvent(new Event("input"));
+    while (view.dataset.shown !== range.value) await new Promise((r) => setTimeout(r, 20));
+    return true;`.replace("arguments[0]", String(stops)));
+  const before = await later(browser, light);
+  assert.equal(await move(2), true);
+  const brighter = await later(browser, light);
+  assert.ok(brighter.sum > 1.2 * before.sum, `two stops made ${before.sum} ${brighter.sum}`);
+  assert.ok(brighter.same, "the slider shows the picture as it was");
+  assert.equal(brighter.source, "blob:");
+  assert.match(brighter.told, /\+2\.0 stops/);
+  assert.equal(await move(0), true);
+  const after = await later(browser, light);
+  assert.deepEqual(after, before);
+}
+
+async function checkFullSize(browser) {
+  const [button] = await browser.find("figure button.zoom");
+  await browser.command("POST", `/element/${button}/click`, {});
+  const [canvas] = await browser.find("#pixels canvas");
+  await browser.drag(canvas, 2, 3);
+  const says = await later(browser, `
+    const output = document.querySelector("#pixels output");
+    for (let i = 0; i < 100 && !/^x /.test(output.textContent); ++i) await new Promise((r) => setTimeout(r, 20));
+    return { text: output.textContent, open: document.getElementById("pixels").open };`);
+  assert.ok(says.open, "a click does not open the picture");
+  assert.match(says.text, /^x \d+, y \d+: [0-9.e+-]+( [0-9.e+-]+ [0-9.e+-]+)? W\/sr\/m/);
+  assert.match(says.text, /Reference [0-9]/);
+  assert.match(says.text, /Leak map [0-9.]+ times/);
+  const [twice] = await browser.find("#pixels [data-zoom='2']");
+  await browser.command("POST", `/element/${twice}/click`, {});
+  const wide = await browser.run(`const c = document.querySelector("#pixels canvas");
+    return c.getBoundingClientRect().width / c.width`);
+  assert.equal(wide, 2);
+  const [close] = await browser.find("#pixels [data-close]");
+  await browser.command("POST", `/element/${close}/click`, {});
+  assert.equal(await browser.run("return document.getElementById('pixels').open"), false);
+}
+
+async function checkFiles(browser) {
+  const links = await browser.run(`return [...document.querySelectorAll("figcaption a")].map((a) => a.getAttribute("href"))`);
+  assert.equal(links.length % 4, 0);
+  assert.ok(links.length >= 8);
+  for (const link of links) assert.ok(existsSync(join(dirname(resolve(file)), link)), `${link} is not beside the page`);
+}
+
 async function checkAccessibility(browser) {
   const unlabelled = await browser.run(
     `return [...document.querySelectorAll("input, select")].filter((c) => !c.labels.length && !c.ariaLabel).length`);
@@ -92,7 +182,7 @@ async function checkQuiet(browser, url) {
     .map((entry) => JSON.parse(entry.message).message)
     .filter((message) => message.method === "Network.requestWillBeSent")
     .map((message) => message.params.request.url)
-    .filter((address) => address !== url && !address.startsWith("data:"));
+    .filter((address) => address !== url && !/^(data|blob):/.test(address));
   assert.deepEqual(requests, [], "the page asks for something outside itself");
 }
 
@@ -122,12 +212,17 @@ try {
   await browser.open(url);
   await checkPictures(browser);
   await checkDefaults(browser);
+  await checkVerdict(browser);
+  await checkFiles(browser);
   const [slider] = await browser.find(".slider");
   const [stage] = await browser.find(".slider .stage");
   await checkPointer(browser, stage, "mouse");
   await checkPointer(browser, stage, "touch");
   await checkKeyboard(browser, stage);
   await checkChoice(browser, slider);
+  await checkValues(browser);
+  await checkExposure(browser);
+  await checkFullSize(browser);
   await checkAccessibility(browser);
   await checkPhone(browser);
   await checkQuiet(browser, url);
@@ -135,4 +230,4 @@ try {
 } finally {
   await browser.stop();
 }
-console.log(`${file}: pictures, sliders, keys, labels, console and requests are as they should be`);
+console.log(`${file}: verdict, pictures, sliders, exposure, values, keys, labels, console and requests are as they should be`);

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # The rules of docs/architecture.md that a compiler does not check. Usage: check.sh RULE [PROJECT_FOLDER]
-# Rules: layers public_headers examples sizes assets words. Prints what breaks the rule; exit code 1 if anything does.
+# Rules: layers public_headers examples sizes assets words links. Prints what breaks the rule; exit code 1 if anything does.
 set -euo pipefail
 shopt -s nullglob globstar
 
-rule=${1:?name a rule: layers, public_headers, examples, sizes, assets or words}
+rule=${1:?name a rule: layers, public_headers, examples, sizes, assets, words or links}
 cd "${2:-$(dirname "${BASH_SOURCE[0]}")/../..}"
 complaints=0
 complain() {
@@ -114,6 +114,28 @@ check_words() {
         [[ -f $file ]] || continue
         if grep -nIE '(^|[^A-Za-z0-9_.])/(work|home|root|Users)/[a-z]' "$file"; then complain "$file names a path of one machine"; fi
     done < <(project_files | grep -v '^tests/structure/')
+}
+
+# The headings of a page as a web page of it calls them: small letters, - for blanks, no punctuation.
+anchors() {
+    sed -n 's/^##* *//p' "$1" | tr '[:upper:] ' '[:lower:]-' | sed 's/[^a-z0-9_-]//g'
+}
+
+# Links between pages and into the project lead somewhere.
+check_links() {
+    local page target file anchor
+    while IFS=: read -r page target; do
+        [[ $target != *://* ]] || continue
+        file=${target%%#*}
+        anchor=${target#"$file"}
+        file=${file:+$(dirname "$page")/$file}
+        file=${file:-$page}
+        if [[ ! -e $file ]]; then
+            complain "$page links to $target, which is not there"
+        elif [[ -n $anchor ]] && ! anchors "$file" | grep -qxF -- "${anchor#\#}"; then
+            complain "$page links to $target, but $file has no such heading"
+        fi
+    done < <(grep -HoP '\]\(\K[^)\s]+' /dev/null ./*.md docs/**/*.md || true)
 }
 
 if ! declare -F "check_$rule" >/dev/null; then

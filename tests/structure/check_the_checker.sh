@@ -43,4 +43,6 @@ expect_complaint sizes src/vulkan/shaders/a.glsl "$(printf '\\n%.0s' {1..601})"
 expect_complaint assets a.bin "$(head -c 1100000 /dev/zero | tr '\0' y)"
 expect_complaint assets a.bin '\0177ELF'
 expect_complaint words src/core/a.cpp '// see /home/someone/notes\n'
+expect_complaint links a.md 'See [there](docs/no.md).\n'
+expect_complaint links docs/a.md '# Some words\n[above](#some-word)\n'
 exit "$failed"

@@ -32,9 +32,16 @@ Result<std::unique_ptr<Tracer>> makeVulkanTracer(const Context& context, const S
 }
 #endif
 
+inline Result<std::unique_ptr<Tracer>> makeMovable(const Context& context, const Scene& scene, const ScenePose& pose) {
+    return makeMovableEmbreeTracer(context, scene, pose).map([](std::unique_ptr<MovableTracer> made) {
+        return std::unique_ptr<Tracer>(std::move(made));
+    });
+}
+
 inline std::span<const TracerMaker> tracerMakers() {
     static const TracerMaker makers[] = {
         {"embree", makeEmbreeTracer, [] { return true; }, 0, 0.003, true},
+        {"embreeMovable", makeMovable, [] { return true; }, 0, 0.003, true},
 #ifdef PROBEGI_TEST_VULKAN
         {"vulkanBvh", makeVulkanTracer<vulkan::TracerKind::bvh>, [] { return true; }, 0, 0},
         {"vulkanRayQuery", makeVulkanTracer<vulkan::TracerKind::rayQuery>, [] { return testDevice().rayQuery(); },

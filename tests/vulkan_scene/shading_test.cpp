@@ -22,7 +22,7 @@ using kernels::Question;
 constexpr std::size_t kQuestions = 20000;
 constexpr float kTolerance = 1e-4f;
 
-static_assert(sizeof(Question) == 32 && sizeof(Answer) == 136 && sizeof(kernels::Push) == 28);
+static_assert(sizeof(Question) == 36 && sizeof(Answer) == 136 && sizeof(kernels::Push) == 28);
 
 std::vector<std::uint8_t> noise(int width, int height, std::mt19937& random, int leastBlue = 0) {
     std::vector<std::uint8_t> rgba(std::size_t(4 * width * height));
@@ -127,9 +127,9 @@ struct CppSide {
     }
     Surface surface(const Question& q) const {
         const Hit hit{1.0f, q.primitive, q.geometry, q.instance, q.barycentric};
-        if (q.instance < 0) return shadeHit(mesh(q), geometry.materials, hit, q.direction);
+        if (q.instance < 0) return shadeHit(mesh(q), geometry.materials, hit, q.direction, q.spread);
         const Placement& p = geometry.placements[std::size_t(q.instance)];
-        return shadeHit(mesh(q), geometry.materials, hit, q.direction, p.toWorld, p.normalToWorld);
+        return shadeHit(mesh(q), geometry.materials, hit, q.direction, p.toWorld, p.normalToWorld, q.spread);
     }
     /// The texture's alpha less what it must reach.
     float alphaMargin(const Question& q) const {
@@ -156,6 +156,7 @@ std::vector<Question> randomQuestions(const SceneGeometry& geometry) {
         if (triangles == 0) continue;
         q.primitive = int(random() % triangles);
         q.direction = randomDirection(random);
+        q.spread = questions.size() % 2 == 0 ? 0.0f : 0.3f * unit(random);
         const float u = unit(random), v = unit(random);
         q.barycentric = u + v < 1.0f ? glm::vec2(u, v) : glm::vec2(1.0f - u, 1.0f - v);
         if (glm::dot(cpp.surface(q).geometricNormal, q.direction) < -0.02f) questions.push_back(q);
@@ -225,21 +226,24 @@ void expectSame(const Answer& a, const Surface& s) {
 struct Asked {
     TestScene scene = randomScene();
     Lighting lighting = someLighting();
+    Context context = Context::create().value();
+    MipMaps mips{context, scene.scene};
     SceneGeometry geometry = SceneGeometry::gather(scene.scene, scene.pose);
     std::vector<Question> questions = randomQuestions(geometry);
     float magnitude = sceneMagnitude(geometry.bounds());
     std::vector<Answer> answers;
 
     Asked() {
+        geometry.materials = makeSurfaceMaterials(scene.scene, mips);
         EXPECT_TRUE(validate(scene.scene));
         auto runner = AddressRunner::create();
         if (!runner) {
             ADD_FAILURE() << runner.error().message;
             return;
         }
-        kernels::SceneAddresses addresses =
-            upload(*runner, vulkan::packScene(geometry, EmitterGeometry(scene.scene, scene.pose).placed(), scene.scene),
-                   lighting);
+        kernels::SceneAddresses addresses = upload(
+            *runner, vulkan::packScene(geometry, EmitterGeometry(scene.scene, scene.pose).placed(), scene.scene, mips),
+            lighting);
         addresses.magnitude = magnitude;
         answers = ask(*runner, addresses, questions);
     }

@@ -15,6 +15,8 @@ namespace probegi::builtin {
 class MeshBuilder {
 public:
     explicit MeshBuilder(int material) { m_primitive.material = material; }
+    /// Goes on with a primitive that take() gave.
+    explicit MeshBuilder(Primitive primitive) : m_primitive(std::move(primitive)) {}
 
     /// Applied to all vertices added from now on; must not mirror.
     void setTransform(const glm::mat4& toMesh) { m_transform = toMesh; }

@@ -38,7 +38,7 @@ void main() {
         s.roughness = 0.0;
         s.distance = 0.0;
     } else {
-        const Surface surface = surfaceAt(ray, hit);
+        const Surface surface = surfaceAt(ray, hit, pinholeSpread(push.camera, push.samplesPerAxis));
         s.kind = surface.backface ? kSampleBackface : kSampleSurface;
         s.direct = surface.emission;
         s.position = surface.position;

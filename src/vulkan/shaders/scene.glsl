@@ -67,14 +67,18 @@ struct SceneFootprint {
     vec4 weights;
 };
 
-SceneFootprint sceneFootprint(GpuTexture image, vec2 uv) {
+SceneFootprint sceneFootprint(GpuTexture image, vec2 uv, int level) {
+    const int width = mipSize(image.width, level);
+    const int height = mipSize(image.height, level);
+    uvec2 first = image.texels;
+    if (level > 0) first = addAddress(image.mips, uvec2(4u * uint(mipOffset(image.width, image.height, level)), 0u));
     const vec2 at = transformUv(image.rowU, image.rowV, uv);
     const bool nearest = textureNearest(image.flags);
-    const TexelSpan x = texelSpan(at.x, image.width, textureWrapU(image.flags), nearest);
-    const TexelSpan y = texelSpan(at.y, image.height, textureWrapV(image.flags), nearest);
-    SceneTexels texels = SceneTexels(addAddress(PROBEGI_SCENE.texels, image.texels));
-    const int upper = y.first * image.width;
-    const int lower = y.second * image.width;
+    const TexelSpan x = texelSpan(at.x, width, textureWrapU(image.flags), nearest);
+    const TexelSpan y = texelSpan(at.y, height, textureWrapV(image.flags), nearest);
+    SceneTexels texels = SceneTexels(addAddress(PROBEGI_SCENE.texels, first));
+    const int upper = y.first * width;
+    const int lower = y.second * width;
     SceneFootprint f;
     f.texel[0] = texels.at[upper + x.first];
     f.texel[1] = texels.at[upper + x.second];
@@ -90,23 +94,38 @@ vec3 sceneLinear(uint texel) {
 }
 
 // RGB decoded from sRGB.
-vec3 textureColor(GpuTexture image, vec2 uv) {
-    const SceneFootprint f = sceneFootprint(image, uv);
+vec3 textureColorOn(GpuTexture image, vec2 uv, int level) {
+    const SceneFootprint f = sceneFootprint(image, uv, level);
     return blendTexels(f.weights, sceneLinear(f.texel[0]), sceneLinear(f.texel[1]), sceneLinear(f.texel[2]),
                        sceneLinear(f.texel[3]));
 }
 
 // RGB as it is stored, divided by 255.
-vec3 textureData(GpuTexture image, vec2 uv) {
-    const SceneFootprint f = sceneFootprint(image, uv);
+vec3 textureDataOn(GpuTexture image, vec2 uv, int level) {
+    const SceneFootprint f = sceneFootprint(image, uv, level);
     return blendTexels(f.weights, texelCodes(f.texel[0]), texelCodes(f.texel[1]), texelCodes(f.texel[2]),
                        texelCodes(f.texel[3])) *
            (1.0 / 255.0);
 }
 
+// Between two mip levels, 0 <= level <= levels - 1.
+vec3 textureColor(GpuTexture image, vec2 uv, float level) {
+    const int finer = int(level);
+    const vec3 texel = textureColorOn(image, uv, finer);
+    if (level == float(finer)) return texel;
+    return mix(texel, textureColorOn(image, uv, finer + 1), level - float(finer));
+}
+
+vec3 textureData(GpuTexture image, vec2 uv, float level) {
+    const int finer = int(level);
+    const vec3 texel = textureDataOn(image, uv, finer);
+    if (level == float(finer)) return texel;
+    return mix(texel, textureDataOn(image, uv, finer + 1), level - float(finer));
+}
+
 // Alpha divided by 255.
 float textureAlpha(GpuTexture image, vec2 uv) {
-    const SceneFootprint f = sceneFootprint(image, uv);
+    const SceneFootprint f = sceneFootprint(image, uv, 0);
     return blendTexels(f.weights, float(texelCode(f.texel[0], 3)), float(texelCode(f.texel[1], 3)),
                        float(texelCode(f.texel[2], 3)), float(texelCode(f.texel[3], 3))) *
            (1.0 / 255.0);
@@ -176,6 +195,31 @@ vec2 sceneUv(SceneCorners t, GpuTexture image) {
     return interpolate(uvs.a, uvs.b, uvs.c, t.barycentric);
 }
 
+// What a ray's cone covers of a triangle: metres across, and twice the triangle's area in world space.
+struct SceneCone {
+    float metres;
+    float area;
+};
+
+// The mip level that the cone asks for.
+float sceneLevel(SceneCorners t, GpuTexture image, SceneCone cone) {
+    if (cone.metres <= 0.0 || image.levels == 1) return 0.0;
+    const CornerUvs uvs = sceneUvs(t, textureUvSet(image.flags));
+    const float texels =
+        uvArea(uvs.a, uvs.b, uvs.c) * texelsPerUvArea(image.rowU, image.rowV, image.width, image.height);
+    return footprintLevel(cone.metres, texels, cone.area, image.levels);
+}
+
+vec3 sceneColor(SceneCorners t, int texture, SceneCone cone) {
+    const GpuTexture image = sceneTexture(texture);
+    return textureColor(image, sceneUv(t, image), sceneLevel(t, image, cone));
+}
+
+vec3 sceneTexel(SceneCorners t, int texture, SceneCone cone) {
+    const GpuTexture image = sceneTexture(texture);
+    return textureData(image, sceneUv(t, image), sceneLevel(t, image, cone));
+}
+
 vec4 sceneTangent(SceneCorners t, int uvSet) {
     if (t.mesh.firstTangent >= 0) {
         SceneTangents tangents = SceneTangents(PROBEGI_SCENE.tangents);
@@ -190,29 +234,22 @@ vec4 sceneTangent(SceneCorners t, int uvSet) {
 }
 
 // Colours of the front, and of both sides where the material has two.
-void sceneShade(inout Surface surface, SceneCorners t, GpuMaterial material) {
+void sceneShade(inout Surface surface, SceneCorners t, GpuMaterial material, SceneCone cone) {
     surface.metallic = material.metallic;
     surface.roughness = material.roughness;
     surface.albedo = vec3(0.0);
     surface.emission = vec3(0.0);
     if (surface.backface) return;
     vec3 color = vec3(1.0);
-    if (material.baseColorTexture >= 0) {
-        const GpuTexture image = sceneTexture(material.baseColorTexture);
-        color = textureColor(image, sceneUv(t, image));
-    }
+    if (material.baseColorTexture >= 0) color = sceneColor(t, material.baseColorTexture, cone);
     surface.albedo = surfaceAlbedo(material.baseColor, color);
     if (material.metallicRoughnessTexture >= 0) {
-        const GpuTexture image = sceneTexture(material.metallicRoughnessTexture);
-        const vec3 texel = textureData(image, sceneUv(t, image));
+        const vec3 texel = sceneTexel(t, material.metallicRoughnessTexture, cone);
         surface.metallic = surfaceMetallic(material.metallic, texel);
         surface.roughness = surfaceRoughness(material.roughness, texel);
     }
     surface.emission = material.emission;
-    if (material.emissiveTexture >= 0) {
-        const GpuTexture image = sceneTexture(material.emissiveTexture);
-        surface.emission *= textureColor(image, sceneUv(t, image));
-    }
+    if (material.emissiveTexture >= 0) surface.emission *= sceneColor(t, material.emissiveTexture, cone);
 }
 
 SceneCorners sceneCorners(Hit hit) {
@@ -226,28 +263,32 @@ SceneCorners sceneCorners(Hit hit) {
     return t;
 }
 
-// Resolves a hit that closestHit() found along the ray.
-Surface surfaceAt(Ray ray, Hit hit) {
+// Resolves a hit that closestHit() found along the ray. `spread`: angle of the ray's cone in radians, by which textures
+// are filtered; 0: not at all.
+Surface surfaceAt(Ray ray, Hit hit, float spread) {
     const SceneCorners t = sceneCorners(hit);
     const GpuMaterial material = sceneMaterial(t.triangle.material);
     vec3 position = interpolate(t.a.position, t.b.position, t.c.position, t.barycentric);
     vec3 edgeCross = cross(t.b.position - t.a.position, t.c.position - t.a.position);
+    float area = length(edgeCross);
     vec3 normal = interpolate(t.a.normal, t.b.normal, t.c.normal, t.barycentric);
     mat4x3 toWorld;
     if (hit.instance >= 0) {
         SceneInstances instances = SceneInstances(PROBEGI_SCENE.instances);
         toWorld = instances.at[hit.instance].toWorld;
         const mat3 normalToWorld = instances.at[hit.instance].normalToWorld;
+        const mat3 linear = mat3(toWorld);
+        area = length(cross(linear * (t.b.position - t.a.position), linear * (t.c.position - t.a.position)));
         position = toWorld * vec4(position, 1.0);
         edgeCross = placeNormal(normalToWorld, edgeCross);
         normal = placeNormal(normalToWorld, normal);
     }
     FrontNormals front = frontNormals(edgeCross, normal, -ray.direction);
+    const SceneCone cone = SceneCone(coneFootprint(spread, hit.distance, dot(front.geometric, ray.direction)), area);
     if (material.normalTexture >= 0) {
-        const GpuTexture image = sceneTexture(material.normalTexture);
-        vec4 tangent = sceneTangent(t, textureUvSet(image.flags));
+        vec4 tangent = sceneTangent(t, textureUvSet(sceneTexture(material.normalTexture).flags));
         if (hit.instance >= 0) tangent = placeTangent(mat3(toWorld), tangent);
-        const vec3 texel = textureData(image, sceneUv(t, image));
+        const vec3 texel = sceneTexel(t, material.normalTexture, cone);
         front.shading = mapNormal(texel, material.normalScale, tangent, front.shading);
     }
     const FrontNormals facing = facingNormals(front, ray.direction);
@@ -258,8 +299,12 @@ Surface surfaceAt(Ray ray, Hit hit) {
     surface.material = int(t.triangle.material);
     surface.back = meetsBack(front, ray.direction);
     surface.backface = surface.back && material.doubleSided == 0;
-    sceneShade(surface, t, material);
+    sceneShade(surface, t, material, cone);
     return surface;
+}
+
+Surface surfaceAt(Ray ray, Hit hit) {
+    return surfaceAt(ray, hit, 0.0);
 }
 
 // Whether a candidate hit on a masked mesh counts; on an opaque one all do.

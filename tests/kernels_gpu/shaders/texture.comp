@@ -26,6 +26,19 @@ void evaluate(INOUT(Lane) lane) {
         giveSpan(lane, texelSpan(0.0f, size, wrap, false));
         giveSpan(lane, texelSpan(1.0f, size, wrap, false));
     }
+    const int height = 1 + takeIndex(lane, 300);
+    const int level = takeIndex(lane, 9);
+    giveBits(lane, uint(mipSize(height, level)));
+    giveBits(lane, uint(mipLevels(size, height)));
+    giveBits(lane, uint(mipOffset(size, height, level)));
+    const float spread = takeBetween(lane, 1e-5f, 1e-2f);
+    const float distance = takeBetween(lane, 0.0f, 1e3f);
+    const float metres = coneFootprint(spread, distance, rowU.x);
+    give(lane, metres, 5e-5f);
+    const float uvs = uvArea(uv, vec2(rowU.x, rowV.x), vec2(rowV.y, rowU.y));
+    give(lane, uvs, 2e-5f);
+    give(lane, texelsPerUvArea(rowU, rowV, size, height) / float(size * height), 1e-5f);
+    give(lane, footprintLevel(metres, uv.x * 1e6f, uv.y + 1e-3f, 10), 1e-4f);
     const vec4 weights = bilinearWeights(uv.x, uv.y);
     const vec3 a = takeVector(lane, 0.0f, 255.0f);
     const vec3 b = takeVector(lane, 0.0f, 255.0f);

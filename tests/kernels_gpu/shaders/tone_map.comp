@@ -6,6 +6,9 @@ void evaluate(INOUT(Lane) lane) {
     const vec3 color = takeVector(lane, -1.0f, 3.0f);
     const float exposure = takeBetween(lane, 0.1f, 3.0f);
     const float huge = takeBetween(lane, 0.0f, 2e7f);
+    const int x = takeIndex(lane, 1 << 14);
+    const int y = takeIndex(lane, 1 << 14);
+    give(lane, ditherThreshold(x, y), 0.0f);
     give(lane, filmicShoulder(takeBetween(lane, 0.0f, 3.0f)), 1e-6f);
     giveVec3(lane, filmicCurve(abs(color)), 2e-6f);
     give(lane, displayable(color.x), 0.0f);

@@ -12,6 +12,7 @@ struct Question {
     int primitive;
     int geometry;
     int instance;
+    float spread;  // of the ray's cone, radians
 };
 
 struct Answer {

@@ -27,8 +27,8 @@ void main() {
     const uint index = gl_GlobalInvocationID.x;
     if (index >= u_push.count) return;
     const Question q = Questions(u_push.questions).at[index];
-    const Surface s =
-        surfaceAt(Ray(vec3(0.0), 0.0, q.direction, 1e30), Hit(1.0, q.primitive, q.geometry, q.instance, q.barycentric));
+    const Surface s = surfaceAt(Ray(vec3(0.0), 0.0, q.direction, 1e30),
+                                Hit(1.0, q.primitive, q.geometry, q.instance, q.barycentric), q.spread);
     const LightSample light = lightSampleAt(int(index) % PROBEGI_SCENE.lightCount, s.position);
     const Ray shadow = shadowRay(s.position, s.geometricNormal, light);
     Answer a;

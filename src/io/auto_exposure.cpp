@@ -1,0 +1,44 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "kernels/colour.h"
+#include "probegi/image.h"
+
+namespace probegi {
+
+namespace {
+
+constexpr float kMiddleGrey = 0.18f;
+// Left out of the mean: corners that no light reaches, and lamps and sky.
+constexpr double kDarkest = 0.10, kBrightest = 0.05;
+
+/// Logarithms to base 2 of all luminances that have one.
+std::vector<float> logLuminances(const HdrImage& image) {
+    std::vector<float> logs;
+    logs.reserve(image.pixels.size());
+    for (const glm::vec3& pixel : image.pixels) {
+        const float y = kernels::luminance(pixel);
+        if (y > 1e-30f && y < 1e30f) logs.push_back(std::log2(y));
+    }
+    return logs;
+}
+
+}  // namespace
+
+float autoExposure(const HdrImage& image) {
+    std::vector<float> logs = logLuminances(image);
+    if (logs.empty()) return 1.0f;
+    std::sort(logs.begin(), logs.end());
+    // Shares of all pixels: those that are black come first and are already gone.
+    const std::size_t pixels = image.pixels.size(), black = pixels - logs.size();
+    const std::size_t darkest = std::size_t(kDarkest * double(pixels)),
+                      brightest = std::size_t(kBrightest * double(pixels));
+    auto first = logs.begin() + std::ptrdiff_t(std::min(darkest - std::min(darkest, black), logs.size() - 1));
+    auto last = logs.end() - std::ptrdiff_t(std::min(brightest, std::size_t(logs.end() - first) - 1));
+    const double mean = std::accumulate(first, last, 0.0) / double(last - first);
+    return kMiddleGrey * float(std::exp2(-mean));
+}
+
+}  // namespace probegi

@@ -1,0 +1,72 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "cli/tool.h"
+
+// The README's block of commands, typed line by line as a newcomer would, in one folder. Options that make them quick
+// are added at the end of each line; nothing else is changed but how long the reference may take.
+namespace probegi::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+std::vector<Words> commandsOfReadme() {
+    std::ifstream readme(PROBEGI_SOURCE_DIR "/README.md");
+    const std::string mark = "    probegi ";
+    std::vector<Words> commands;
+    for (std::string line; std::getline(readme, line);) {
+        if (line.compare(0, mark.size(), mark) != 0) continue;
+        std::istringstream words(line.substr(mark.size(), line.find('#') - mark.size()));
+        commands.push_back({std::istream_iterator<std::string>(words), {}});
+    }
+    return commands;
+}
+
+Words quick(Words words) {
+    const auto time = std::find(words.begin(), words.end(), "--time");
+    const bool reference = time != words.end();
+    if (reference) *std::next(time) = "0.2";
+    const std::map<std::string, Words> more{
+        {"render", reference ? Words{"--size", "32x18"}
+                             : Words{"--size", "32x18", "--probes", "4x4x4", "--rays", "32", "--frames", "2"}},
+        {"report",
+         {"--size", "32x18", "--spp", "1", "--probes", "4x4x4", "--rays", "32", "--frames", "2", "--ratio-probes",
+          "4"}},
+        {"bench",
+         {"--size", "32x18", "--probes", "4x4x4", "--rays", "16", "--rounds", "1", "--threads", "2", "--no-growth"}}};
+    if (const auto entry = more.find(words.front()); entry != more.end())
+        words.insert(words.end(), entry->second.begin(), entry->second.end());
+    return words;
+}
+
+bool isResult(const std::string& option) {
+    return option == "-o" || option == "--heatmap";
+}
+
+TEST(Readme, EveryLineOfItsToolBlockWorks) {
+    const TemporaryFolder folder;
+    const std::vector<Words> commands = commandsOfReadme();
+    std::map<std::string, int> seen;
+    for (const Words& words : commands) {
+        SCOPED_TRACE(testing::PrintToString(words));
+        ++seen[words.front()];
+#if !PROBEGI_HAS_VULKAN
+        if (words.front() == "devices") continue;
+#endif
+        const ToolRun run = runTool(quick(words), folder.path());
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        for (std::size_t i = 0; i + 1 < words.size(); ++i)
+            if (isResult(words[i])) {
+                EXPECT_TRUE(std::filesystem::exists(folder.file(words[i + 1])));
+            }
+    }
+    for (const char* command : {"scenes", "info", "render", "compare", "report", "bench", "devices"})
+        EXPECT_GE(seen[command], 1) << command << " is not in the README";
+}
+
+}  // namespace
+}  // namespace probegi::test
