@@ -94,7 +94,7 @@ Result<std::vector<LoadedSetup>> loadAll(const ReportOptions& options) {
     for (const std::string& name : names) {
         one.scene = name;
         auto setup = loadSetup(one);
-        if (!setup) return tl::unexpected(setup.error());
+        if (!setup) return setup.error();
         setups.push_back(std::move(*setup));
     }
     return setups;
@@ -117,11 +117,11 @@ std::string keyNumbers(const std::string& name, const RenderedScene& scene) {
 Result<void> writeReport(const ReportOptions& options, const CLI::App& command) {
     const fs::path folder(options.folder);
     const auto context = makeContext(options.scene.threads);
-    if (!context) return tl::unexpected(context.error());
+    if (!context) return context.error();
     const auto backend = openBackend(*context, options.backend);
-    if (!backend) return tl::unexpected(backend.error());
+    if (!backend) return backend.error();
     const auto setups = loadAll(options);
-    if (!setups) return tl::unexpected(setups.error());
+    if (!setups) return setups.error();
     if (auto made = makeFolder(folder); !made) return made;
 
     Report report{"ProbeGI report", commandLine(command), legendColours(), {}};
@@ -132,10 +132,10 @@ Result<void> writeReport(const ReportOptions& options, const CLI::App& command) 
         const std::string& name = i == 0 ? options.scene.scene : options.more[i - 1];
         const LoadedSetup& setup = (*setups)[i];
         const auto rendered = renderForReport(*context, **backend, setup, settingsOf(options));
-        if (!rendered) return tl::unexpected(rendered.error());
+        if (!rendered) return rendered.error();
         auto section = describeScene(*rendered, {folder, filePrefix(name, taken), sceneTitle(name)},
                                      {setup.exposure, !options.plain});
-        if (!section) return tl::unexpected(section.error());
+        if (!section) return section.error();
         report.scenes.push_back(std::move(*section));
         numbers.push_back(sceneNumbers(*rendered));
         numbers.back()["scene"] = name;

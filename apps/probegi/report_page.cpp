@@ -25,9 +25,9 @@ Result<std::string> readBytes(const std::filesystem::path& path) {
 Result<ReportPicture> keepPicture(const ReportPlace& place, ReportPicture picture, const HdrImage& image,
                                   const ToneMap& display) {
     const auto path = place.folder / fmt::format("{}-{}.png", place.prefix, picture.id);
-    if (auto written = writeImage(path, image, display); !written) return tl::unexpected(written.error());
+    if (auto written = writeImage(path, image, display); !written) return written.error();
     auto bytes = readBytes(path);
-    if (!bytes) return tl::unexpected(bytes.error());
+    if (!bytes) return bytes.error();
     picture.png = std::move(*bytes);
     return picture;
 }
@@ -95,15 +95,15 @@ Result<ReportScene> describeScene(const RenderedScene& scene, const ReportPlace&
     section.tables = reportTables(scene);
     for (const Shown& shown : shownPictures(scene)) {
         const auto exr = place.folder / fmt::format("{}-{}.exr", place.prefix, shown.id);
-        if (auto written = writeImage(exr, shown.picture.color); !written) return tl::unexpected(written.error());
+        if (auto written = writeImage(exr, shown.picture.color); !written) return written.error();
         const ReportPicture plain{
             shown.id, shown.title, shown.caption, fmt::format("{}: {}", place.title, shown.title), {}};
         auto picture = keepPicture(place, plain, shown.picture.color, display);
-        if (!picture) return tl::unexpected(picture.error());
+        if (!picture) return picture.error();
         section.pictures.push_back(std::move(*picture));
         if (!shown.method) continue;
         auto map = errorMap(shown, place, scene.noiseFloor.flip);
-        if (!map) return tl::unexpected(map.error());
+        if (!map) return map.error();
         section.errorMaps.push_back(std::move(*map));
     }
     return section;

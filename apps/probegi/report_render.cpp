@@ -50,7 +50,7 @@ Result<ImageDifference> noiseScore(const HdrImage& layer, const HdrImage& standa
     for (std::size_t i = 0; i < twin.pixels.size(); ++i)
         twin.pixels[i] = glm::max(twin.pixels[i] + standardError.pixels[i] * normal(random), 0.0f);
     const auto compared = compareImages(twin, layer, {exposure});
-    if (!compared) return tl::unexpected(compared.error());
+    if (!compared) return compared.error();
     return compared->difference;
 }
 
@@ -59,7 +59,7 @@ Result<FieldResult> fillField(Field& field, const Tracer& tracer, const Lighting
     FieldResult result;
     const Stopwatch watch;
     auto run = runField(field, tracer, lighting, options);
-    if (!run) return tl::unexpected(run.error());
+    if (!run) return run.error();
     result.seconds = watch.seconds();
     result.run = std::move(*run);
     result.description = describeRun(result.run, options);
@@ -71,7 +71,7 @@ Result<FieldResult> fillField(Field& field, const Tracer& tracer, const Lighting
 Result<MethodResult> drawMethod(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
                                 const ReportSettings& settings, const Field* field) {
     auto rendered = backend.render(tracer, setup.lighting, field, pictureDesc(setup, settings));
-    if (!rendered) return tl::unexpected(rendered.error());
+    if (!rendered) return rendered.error();
     MethodResult result;
     result.picture = std::move(rendered->picture);
     result.pictureMs = rendered->times.total;
@@ -80,9 +80,9 @@ Result<MethodResult> drawMethod(const Backend& backend, const Tracer& tracer, co
 
 Result<void> judge(MethodResult& method, const Picture& reference, const ToneMap& toneMap) {
     auto whole = compareImages(method.picture.color, reference.color, toneMap);
-    if (!whole) return tl::unexpected(whole.error());
+    if (!whole) return whole.error();
     const auto indirect = compareImages(method.picture.indirect, reference.indirect, toneMap);
-    if (!indirect) return tl::unexpected(indirect.error());
+    if (!indirect) return indirect.error();
     method.whole = std::move(*whole);
     method.indirectOnly = indirect->difference;
     return {};
@@ -92,10 +92,10 @@ Result<FieldPicture> drawField(const Backend& backend, const Tracer& tracer, con
                                const ReportSettings& settings, const ProbeTruth& truth, Field& field,
                                const FieldRunOptions& run) {
     auto filled = fillField(field, tracer, setup.lighting, run);
-    if (!filled) return tl::unexpected(filled.error());
+    if (!filled) return filled.error();
     filled->ratio = percentiles(probeRatios(field, truth));
     auto drawn = drawMethod(backend, tracer, setup, settings, &field);
-    if (!drawn) return tl::unexpected(drawn.error());
+    if (!drawn) return drawn.error();
     return FieldPicture{std::move(*filled), std::move(*drawn)};
 }
 
@@ -112,20 +112,20 @@ FieldDesc fieldDesc(const LoadedSetup& setup, const ReportSettings& settings) {
 Result<Field> drawFields(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
                          const ReportSettings& settings, RenderedScene& scene) {
     auto field = backend.makeField(fieldDesc(setup, settings));
-    if (!field) return tl::unexpected(field.error());
+    if (!field) return field.error();
     for (const auto& [guard, result, method] : {std::tuple(LeakGuard::none, &scene.leakyField, &scene.leaky),
                                                 std::tuple(LeakGuard::moments, &scene.ddgiField, &scene.ddgi)}) {
         field->setGuard(guard);
         auto drawn = drawField(backend, tracer, setup, settings, scene.truth, *field, settings.run);
-        if (!drawn) return tl::unexpected(drawn.error());
+        if (!drawn) return drawn.error();
         *result = std::move(drawn->field);
         *method = std::move(drawn->method);
     }
     if (!settings.realtimeUpdates) return std::move(*field);
     auto fresh = backend.makeField(fieldDesc(setup, settings));
-    if (!fresh) return tl::unexpected(fresh.error());
+    if (!fresh) return fresh.error();
     auto drawn = drawField(backend, tracer, setup, settings, scene.truth, *fresh, {settings.realtimeUpdates, {}});
-    if (!drawn) return tl::unexpected(drawn.error());
+    if (!drawn) return drawn.error();
     scene.realtime = std::move(*drawn);
     return std::move(*field);
 }
@@ -139,19 +139,19 @@ Result<void> drawReference(const PathTracer& pathTracer, const LoadedSetup& setu
     desc.samplesPerPixel = settings.samplesPerPixel;
     desc.seed = settings.seed;
     auto reference = pathTracer.render(desc);
-    if (!reference) return tl::unexpected(reference.error());
+    if (!reference) return reference.error();
     scene.referenceSamples = reference->samplesPerPixel;
     scene.referenceSeconds = reference->seconds;
     scene.referenceNoise = relativeNoise(*reference);
     const Picture& truth = reference->picture;
     const auto whole = noiseScore(truth.color, reference->standardError, settings.seed, setup.exposure);
-    if (!whole) return tl::unexpected(whole.error());
+    if (!whole) return whole.error();
     scene.noiseFloor = *whole;
     HdrImage indirectError = reference->standardError;
     for (std::size_t i = 0; i < indirectError.pixels.size(); ++i)
         indirectError.pixels[i] = glm::min(indirectError.pixels[i], truth.indirect.pixels[i]);
     const auto indirect = noiseScore(truth.indirect, indirectError, settings.seed, setup.exposure);
-    if (!indirect) return tl::unexpected(indirect.error());
+    if (!indirect) return indirect.error();
     scene.indirectNoiseFloor = *indirect;
     scene.reference = std::move(reference->picture);
     return {};
@@ -167,34 +167,32 @@ Result<RenderedScene> renderForReport(const Context& context, const Backend& bac
     scene.grid = setup.grid;
     const Stopwatch watch;
     const auto tracer = makeEmbreeTracer(context, *setup.scene, setup.pose);
-    if (!tracer) return tl::unexpected(tracer.error());
+    if (!tracer) return tracer.error();
     const auto pathTracer = PathTracer::create(context, *setup.scene, setup.pose, **tracer, setup.lighting);
-    if (!pathTracer) return tl::unexpected(pathTracer.error());
+    if (!pathTracer) return pathTracer.error();
     scene.prepareSeconds = watch.seconds();
     std::unique_ptr<Tracer> another;  // where the reference's is not the backend's
     if (backend.kind() != BackendKind::cpu) {
         auto made = backend.makeTracer(*setup.scene, setup.pose);
-        if (!made) return tl::unexpected(made.error());
+        if (!made) return made.error();
         another = std::move(*made);
     }
     const Tracer& drawing = another ? *another : **tracer;
 
     auto truth = traceProbeTruth(**tracer, *pathTracer, setup.grid, settings.ratioProbes, settings.ratioSamples,
                                  settings.diffuseOnly);
-    if (!truth) return tl::unexpected(truth.error());
+    if (!truth) return truth.error();
     scene.truth = std::move(*truth);
     auto none = drawMethod(backend, drawing, setup, settings, nullptr);
-    if (!none) return tl::unexpected(none.error());
+    if (!none) return none.error();
     scene.none = std::move(*none);
     const auto field = drawFields(backend, drawing, setup, settings, scene);
-    if (!field) return tl::unexpected(field.error());
-    if (auto done = drawReference(*pathTracer, setup, settings, *field, scene); !done)
-        return tl::unexpected(done.error());
+    if (!field) return field.error();
+    if (auto done = drawReference(*pathTracer, setup, settings, *field, scene); !done) return done.error();
     std::vector<MethodResult*> methods{&scene.none, &scene.leaky, &scene.ddgi};
     if (scene.realtime) methods.push_back(&scene.realtime->method);
     for (MethodResult* method : methods)
-        if (auto done = judge(*method, scene.reference, {setup.exposure, false}); !done)
-            return tl::unexpected(done.error());
+        if (auto done = judge(*method, scene.reference, {setup.exposure, false}); !done) return done.error();
     return scene;
 }
 

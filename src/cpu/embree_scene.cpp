@@ -1,10 +1,9 @@
 #include "cpu/embree_scene.h"
 
-#include <fmt/format.h>
-
 #include <new>
 
-#include "core/context_impl.h"
+#include "core/parallel.h"
+#include "core/sentence.h"
 #include "cpu/embree_filter.h"
 
 namespace probegi {
@@ -76,11 +75,10 @@ Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(const Context& context,
         return fail(errorCode(rtcGetDeviceError(nullptr)),
                     "Embree could not make a device; is this processor supported?");
     // Within the arena Embree's tasks keep to the context's threads; its own "threads" option would cap all of TBB.
-    context.impl().arena.execute([&] { result->build(); });
+    runInside(context, [&] { result->build(); });
     if (const RTCError error = rtcGetDeviceError(result->m_device.get()); error != RTC_ERROR_NONE)
-        return fail(errorCode(error), fmt::format("Embree could not build the scene (its error code {}); use fewer "
-                                                  "triangles or free memory",
-                                                  int(error)));
+        return fail(errorCode(error), sentence("Embree could not build the scene (its error code ", int(error),
+                                               "); use fewer triangles or free memory"));
     return result;
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, "not enough memory for the scene's triangles; use fewer triangles");

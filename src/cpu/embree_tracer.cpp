@@ -21,20 +21,23 @@ public:
           m_emitters(std::move(emitters)),
           m_originSpread(kCoherentSpread * glm::length(m_scene->bounds().size())) {}
 
-    void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override {
+    Result<void> closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override {
         assert(rays.size() == hits.size());
         packets().closestHits(rays, hits);
+        return {};
     }
 
-    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override {
+    Result<void> occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override {
         assert(rays.size() == blocked.size());
         packets().occluded(rays, blocked);
+        return {};
     }
 
-    void surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const override {
+    Result<void> surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const override {
         assert(rays.size() == hits.size() && rays.size() == out.size());
         for (std::size_t i = 0; i < rays.size(); ++i)
             if (hits[i].valid()) out[i] = surface(rays[i], hits[i]);
+        return {};
     }
 
     Bounds bounds() const override { return m_scene->bounds(); }
@@ -60,7 +63,7 @@ private:
 }  // namespace
 
 Result<std::unique_ptr<Tracer>> makeEmbreeTracer(const Context& context, const Scene& scene, const ScenePose& pose) {
-    return EmbreeScene::create(context, scene, pose).map([&](std::unique_ptr<EmbreeScene> made) {
+    return EmbreeScene::create(context, scene, pose).transform([&](std::unique_ptr<EmbreeScene> made) {
         return std::unique_ptr<Tracer>(
             std::make_unique<EmbreeTracer>(std::move(made), EmitterGeometry(scene, pose).placed()));
     });

@@ -156,6 +156,7 @@ template <class Guard, int rules>
 glm::vec3 queryOne(const FieldView& view, FieldQuery query, const Guard& guard) {
     const GridDesc& grid = view.desc->grid;
     const float biasScale = view.desc->selfShadowBias;
+    query.toViewer = kernels::viewerOf(query.toViewer, query.normal);
     query.position = kernels::clampToGrid(query.position, grid.origin, grid.spacing, grid.counts);
     const glm::vec3 bias = kernels::visibilityBias(query.normal, query.toViewer, view.minSpacing, biasScale, rules);
     // The cage and the trilinear weights belong to a point a little off the surface: on a wall that runs through a

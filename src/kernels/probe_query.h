@@ -32,6 +32,11 @@ KERNEL_CONST float kCrushBelow = 0.2f;
 KERNEL_CONST float kInsideShare = 0.25f;
 KERNEL_CONST float kInsideShareEdge = 0.05f;
 
+// omega_o of a query: a `toViewer` of zero stands for the normal, where nobody looks.
+KERNEL_FN vec3 viewerOf(vec3 toViewer, vec3 normal) {
+    return dot(toViewer, toViewer) > 0.0f ? toViewer : normal;
+}
+
 // Eq. 2: the offset from a surface point to where visibility is tested. `toViewer` is omega_o.
 KERNEL_FN vec3 selfShadowBias(vec3 normal, vec3 toViewer, float minSpacing, float tunableBias) {
     return (normal * 0.2f + toViewer * 0.8f) * (0.75f * minSpacing * tunableBias);

@@ -1,9 +1,8 @@
-#include <fmt/format.h>
-
 #include <map>
 
 #include "bvh/binary_tree.h"
 #include "bvh/wide_bvh.h"
+#include "core/sentence.h"
 #include "surface/lighting.h"
 #include "vulkan/errors.h"
 #include "vulkan/gpu_scene_impl.h"
@@ -39,7 +38,7 @@ GpuScene::Impl::Impl(const Context& context, const Device& d, const Scene& scene
     for (const int node : desc.movableNodes)
         if (node < 0 || std::size_t(node) >= scene.nodes.size())
             throw Failure(ErrorCode::invalidArgument,
-                          fmt::format("movableNodes has {}, but the scene has {} nodes", node, scene.nodes.size()));
+                          sentence("movableNodes has ", node, ", but the scene has ", scene.nodes.size(), " nodes"));
     const SceneGeometry geometry =
         SceneGeometry::gather(scene, pose, movableInstances(scene, desc.movable, desc.movableNodes));
     placements = geometry.placements;
@@ -139,12 +138,15 @@ Result<GpuScene> GpuScene::create(const Context& context, const Device& device, 
                    [&] { return GpuScene(std::make_unique<Impl>(context, device, scene, pose, desc)); });
 }
 
-void GpuScene::recordUpload(VkCommandBuffer commands) {
-    const Recorder recorder(m_impl->device.impl(), commands);
-    m_impl->staging.record(recorder);
-    recorder.write(m_impl->constantsBuffer, bytesOf(m_impl->constants()));
-    m_impl->tracer->recordBuild(recorder);
-    recorder.orderAll();
+Result<void> GpuScene::recordUpload(VkCommandBuffer commands) {
+    if (m_impl->staging.released()) return fail(ErrorCode::invalidArgument, kNothingToUpload);
+    return guarded("recording the upload of a scene", [&] {
+        const Recorder recorder(m_impl->device.impl(), commands);
+        m_impl->staging.record(recorder);
+        recorder.write(m_impl->constantsBuffer, bytesOf(m_impl->constants()));
+        m_impl->tracer->recordBuild(recorder);
+        recorder.orderAll();
+    });
 }
 
 void GpuScene::releaseStaging() noexcept {
