@@ -19,7 +19,7 @@ struct Atrium {
             for (std::uint32_t i = 0; i < 144; ++i)
                 rays.push_back({probePosition(grid, probe), 0.0f, kernels::sphericalFibonacci(i, 144)});
         hits.resize(rays.size());
-        tracer->closestHits(rays, hits);
+        tracer->closestHits(rays, hits).value();
     }
 
     Scene scene = *makeBuiltinScene("atrium");
@@ -44,7 +44,7 @@ void closestHits(benchmark::State& state) {
     const Atrium atrium;
     std::vector<Hit> hits(kBatch);
     inBatches(state, atrium, [&](std::size_t i, std::size_t n) {
-        atrium.tracer->closestHits(std::span(atrium.rays).subspan(i, n), std::span(hits).first(n));
+        atrium.tracer->closestHits(std::span(atrium.rays).subspan(i, n), std::span(hits).first(n)).value();
     });
 }
 
@@ -52,7 +52,7 @@ void occluded(benchmark::State& state) {
     const Atrium atrium;
     std::vector<std::uint8_t> blocked(kBatch);
     inBatches(state, atrium, [&](std::size_t i, std::size_t n) {
-        atrium.tracer->occluded(std::span(atrium.rays).subspan(i, n), std::span(blocked).first(n));
+        atrium.tracer->occluded(std::span(atrium.rays).subspan(i, n), std::span(blocked).first(n)).value();
     });
 }
 
@@ -60,8 +60,10 @@ void surfaces(benchmark::State& state) {
     const Atrium atrium;
     std::vector<Surface> surfaces(kBatch);
     inBatches(state, atrium, [&](std::size_t i, std::size_t n) {
-        atrium.tracer->surfaces(std::span(atrium.rays).subspan(i, n), std::span(atrium.hits).subspan(i, n),
-                                std::span(surfaces).first(n));
+        atrium.tracer
+            ->surfaces(std::span(atrium.rays).subspan(i, n), std::span(atrium.hits).subspan(i, n),
+                       std::span(surfaces).first(n))
+            .value();
     });
 }
 

@@ -44,7 +44,7 @@ VulkanRoom::VulkanRoom(const RoomField& room, std::span<const RayDatum> rayData)
     staging.fill(m_device.impl());
     submitAndWait(m_device, [&](const Recorder& recorder) {
         staging.record(recorder);
-        m_volume.recordClear(recorder);
+        m_volume.recordClear(recorder, m_volume.desc().guard);
     });
 }
 
@@ -62,7 +62,7 @@ std::vector<PassTime> VulkanRoom::run(const std::function<void(const Recorder&, 
 }
 
 void VulkanRoom::clear() {
-    submitAndWait(m_device, [&](const Recorder& recorder) { m_volume.recordClear(recorder); });
+    submitAndWait(m_device, [&](const Recorder& recorder) { m_volume.recordClear(recorder, m_volume.desc().guard); });
 }
 
 std::vector<PassTime> VulkanRoom::update() {

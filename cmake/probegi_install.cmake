@@ -1,28 +1,34 @@
-# `cmake --install`: the static layers, the public headers and a package for find_package(probegi).
+# `cmake --install`: the library (the shared one, or the static layers), the public headers and a package for
+# find_package(probegi).
 include(CMakePackageConfigHelpers)
 
-get_property(layers GLOBAL PROPERTY PROBEGI_LAYERS)
-foreach(layer ${layers})
-    # probegi::core and so on: internal, but the linker needs them.
-    string(REPLACE probegi_ "" short ${layer})
-    set_target_properties(${layer} PROPERTIES EXPORT_NAME ${short})
-endforeach()
-
-# What the public headers themselves need.
-find_package(glm REQUIRED)
-find_package(tl-expected REQUIRED)
-target_link_libraries(probegi INTERFACE glm::glm tl::expected)
-target_compile_features(probegi INTERFACE cxx_std_20)
+if(BUILD_SHARED_LIBS)
+    set(libraries probegi)
+else()
+    get_property(layers GLOBAL PROPERTY PROBEGI_LAYERS)
+    foreach(layer ${layers})
+        # probegi::core and so on: internal, but the linker needs them.
+        string(REPLACE probegi_ "" short ${layer})
+        set_target_properties(${layer} PROPERTIES EXPORT_NAME ${short})
+    endforeach()
+    set(libraries probegi ${layers})
+endif()
 
 # A header whose library was left out is left out as well.
 set(without "")
 if(NOT PROBEGI_VULKAN)
-    set(without PATTERN vulkan.h EXCLUDE)
+    list(APPEND without PATTERN vulkan.h EXCLUDE)
 endif()
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/probegi)
-install(TARGETS probegi ${layers} EXPORT probegi_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS probegi_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS ${libraries} EXPORT probegi_targets
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+if(PROBEGI_TOOL)
+    file(RELATIVE_PATH to_libraries /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
+    set_target_properties(probegi_tool PROPERTIES INSTALL_RPATH "$ORIGIN/${to_libraries}")
+    install(TARGETS probegi_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
 install(DIRECTORY include/probegi DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" ${without})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/probegi)
 install(EXPORT probegi_targets NAMESPACE probegi:: DESTINATION ${package_folder})

@@ -2,13 +2,15 @@
 # a layer sees the headers of the layers that it names, and no others are linked.
 
 add_library(probegi_options INTERFACE)
-target_compile_options(probegi_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
 # Highway would compile for AVX-512 twice, with and without instructions that nothing here uses.
 target_compile_definitions(probegi_options INTERFACE HWY_DISABLED_TARGETS=HWY_AVX3_DL)
-if(PROBEGI_WERROR)
-    target_compile_options(probegi_options INTERFACE -Werror)
+if(NOT MSVC)
+    target_compile_options(probegi_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
 endif()
-if(PROBEGI_NATIVE)
+if(PROBEGI_WERROR)
+    target_compile_options(probegi_options INTERFACE $<IF:$<CXX_COMPILER_ID:MSVC>,/WX,-Werror>)
+endif()
+if(PROBEGI_NATIVE AND NOT MSVC)
     target_compile_options(probegi_options INTERFACE -march=native)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     # What every processor since 2009 has; the hot loops choose better instructions when they run.
@@ -19,16 +21,30 @@ if(PROBEGI_SANITIZE)
     target_link_options(probegi_options INTERFACE -fsanitize=${PROBEGI_SANITIZE})
 endif()
 
-# probegi_layer(NAME [LAYERS lower layers...] [LIBRARIES external libraries...])
-# compiles every .cpp of the calling folder into the static library probegi_NAME.
+# probegi_layer(NAME [WITHOUT names...] [ONLY names...] [LAYERS lower layers...] [LIBRARIES external libraries...])
+# compiles every .cpp of the calling folder into the static library probegi_NAME: but for those whose name begins with
+# one of WITHOUT, or only those that begin with one of ONLY.
 function(probegi_layer name)
-    cmake_parse_arguments(ARG "" "" "LAYERS;LIBRARIES" ${ARGN})
+    cmake_parse_arguments(ARG "" "" "WITHOUT;ONLY;LAYERS;LIBRARIES" ${ARGN})
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+    foreach(without ${ARG_WITHOUT})
+        list(FILTER sources EXCLUDE REGEX "/${without}[^/]*$")
+    endforeach()
+    if(ARG_ONLY)
+        list(JOIN ARG_ONLY "|" only)
+        list(FILTER sources INCLUDE REGEX "/(${only})[^/]*$")
+    endif()
     add_library(probegi_${name} STATIC ${sources})
     target_include_directories(probegi_${name}
         PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
         PRIVATE ${PROJECT_SOURCE_DIR}/src)
+    # The same objects go into the static and into the shared library, which shows PROBEGI_API only.
+    set_target_properties(probegi_${name} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    if(WIN32 AND BUILD_SHARED_LIBS)
+        target_compile_definitions(probegi_${name} PRIVATE PROBEGI_BUILDS_SHARED)
+    endif()
     target_link_libraries(probegi_${name} PRIVATE $<BUILD_INTERFACE:probegi_options>)
+    target_link_libraries(probegi_${name} PUBLIC glm::glm)
     foreach(layer ${ARG_LAYERS})
         target_link_libraries(probegi_${name} PUBLIC probegi_${layer})
     endforeach()

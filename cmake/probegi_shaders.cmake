@@ -65,10 +65,16 @@ function(probegi_shader_include input name)
     cmake_path(GET input PARENT_PATH beside)
     cmake_path(GET input STEM stem)
     file(GLOB included CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/kernels/*.h ${beside}/*.glsl)
-    add_custom_command(OUTPUT ${output}
-        COMMAND ${CMAKE_COMMAND} -DINPUT=${input} -DOUTPUT=${output} -DROOT=${PROJECT_SOURCE_DIR}/src
-            -P ${PROJECT_SOURCE_DIR}/cmake/amalgamate.cmake
+    set(collect ${CMAKE_COMMAND} -DINPUT=${input} -DOUTPUT=${output} -DROOT=${PROJECT_SOURCE_DIR}/src
+        -P ${PROJECT_SOURCE_DIR}/cmake/amalgamate.cmake)
+    if(NOT EXISTS ${output})
+        # There from the beginning: shaders of an engine that adds this folder name no dependency on it.
+        execute_process(COMMAND ${collect} COMMAND_ERROR_IS_FATAL ANY)
+    endif()
+    add_custom_command(OUTPUT ${output} COMMAND ${collect}
         DEPENDS ${included} ${PROJECT_SOURCE_DIR}/cmake/amalgamate.cmake COMMENT "Collecting ${name}" VERBATIM)
     add_custom_target(probegi_shader_include_${stem} ALL DEPENDS ${output})
-    install(FILES ${output} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
+    if(PROBEGI_INSTALL)
+        install(FILES ${output} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
+    endif()
 endfunction()

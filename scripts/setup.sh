@@ -8,16 +8,17 @@ source scripts/apt.sh
 build_packages=(
     g++ cmake ninja-build ccache
     libembree-dev libtbb-dev        # ray tracing, threads
-    libglm-dev libeigen3-dev libhwy-dev  # vectors, matrix product, SIMD
+    libglm-dev libhwy-dev  # vectors, SIMD
     libtinygltf-dev libdraco-dev libstb-dev libopenexr-dev nlohmann-json3-dev  # files
     libturbojpeg0-dev libjpeg62-turbo-dev  # the first one's CMake package asks for files of the second
-    libcli11-dev libfmt-dev libexpected-dev
+    libcli11-dev libfmt-dev
     libvulkan-dev glslc  # headers and shader compiler; the loader is opened at run time
 )
 test_packages=(
     libgtest-dev libgmock-dev libbenchmark-dev
     vulkan-validationlayers vulkan-tools     # checked Vulkan; which devices there are
     chromium chromium-driver nodejs          # opens report.html
+    g++-mingw-w64-x86-64-posix wine64 wine   # the own-rays configuration for Windows, and what runs it
     clang-14 clang-format-14 libclang-rt-14-dev llvm-14  # sanitizers, fuzzing, format
 )
 

@@ -39,7 +39,7 @@ std::vector<FieldQuery> wallPoints(glm::vec3 lower, glm::vec3 upper) {
 
 Result<double> meanIrradiance(const Field& field, const std::vector<FieldQuery>& points) {
     std::vector<glm::vec3> irradiance(points.size());
-    if (const auto asked = field.irradiance(points, irradiance); !asked) return tl::unexpected(asked.error());
+    if (const auto asked = field.irradiance(points, irradiance); !asked) return asked.error();
     double sum = 0;
     for (const glm::vec3& e : irradiance) sum += (double(e.x) + e.y + e.z) / 3;
     return sum / double(points.size());
@@ -55,17 +55,17 @@ enum class Run { converge, update };
 
 Result<void> fill(Field& field, const Tracer& tracer, const Lighting& lighting, Run run) {
     if (run == Run::converge)
-        return field.converge(tracer, lighting, 1e-6f, kUpdates).map([](const ConvergeResult&) {});
+        return field.converge(tracer, lighting, 1e-6f, kUpdates).transform([](const ConvergeResult&) {});
     for (int i = 0; i < kRealtimeUpdates; ++i)
-        if (const auto done = field.update(tracer, lighting); !done) return tl::unexpected(done.error());
+        if (const auto done = field.update(tracer, lighting); !done) return done.error();
     return {};
 }
 
 Result<double> leakShare(const Context& context, const Tracer& tracer, const Lighting& lighting, float wallThickness,
                          const FieldDesc& desc, Run run) {
     auto field = Field::create(context, desc);
-    if (!field) return tl::unexpected(field.error());
-    if (const auto done = fill(*field, tracer, lighting, run); !done) return tl::unexpected(done.error());
+    if (!field) return field.error();
+    if (const auto done = fill(*field, tracer, lighting, run); !done) return done.error();
     const float wall = 0.5f * wallThickness;
     const glm::vec3 sealed(wall, 0, -0.5f * kRoom.z);
     const glm::vec3 lit(-wall - kRoom.x, 0, -0.5f * kRoom.z);
@@ -82,10 +82,10 @@ Result<LeakResult> measureLeak(const Context& context, float wallThickness) {
     BuiltinParams params;
     params.wallThickness = wallThickness;
     const auto scene = makeBuiltinScene("dark-room", params);
-    if (!scene) return tl::unexpected(scene.error());
+    if (!scene) return scene.error();
     const ScenePose pose = poseAt(*scene);
     const auto tracer = makeEmbreeTracer(context, *scene, pose);
-    if (!tracer) return tl::unexpected(tracer.error());
+    if (!tracer) return tracer.error();
     const Lighting lighting{pose.lights, scene->sky};
 
     LeakResult result;
@@ -98,7 +98,7 @@ Result<LeakResult> measureLeak(const Context& context, float wallThickness) {
             desc.grid = shiftedGrid(shift);
             desc.guard = guard;
             const auto measured = leakShare(context, **tracer, lighting, wallThickness, desc, run);
-            if (!measured) return tl::unexpected(measured.error());
+            if (!measured) return measured.error();
             share->mean += *measured / double(kShifts.size());
             share->worst = std::max(share->worst, *measured);
         }

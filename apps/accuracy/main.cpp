@@ -67,9 +67,9 @@ Result<std::string> surfaces(const Context& context, const Options& options) {
         for (const Case& entry : cases(options))
             if (entry.name == name) scene = entry.options;
         const auto setup = tool::loadSetup(scene);
-        if (!setup) return tl::unexpected(setup.error());
+        if (!setup) return setup.error();
         const auto measured = measureSurface(context, name, *setup, true);
-        if (!measured) return tl::unexpected(measured.error());
+        if (!measured) return measured.error();
         rows.insert(rows.end(), measured->begin(), measured->end());
     }
     return surfaceTable(rows);
@@ -80,59 +80,58 @@ Result<std::string> motion(const Context& context) {
     std::vector<MotionResult> rows;
     const auto add = [&](const char* name, const PlacementDesc& placement, int rays, FieldRules rules) -> Result<void> {
         const auto scene = makeBuiltinScene(name);
-        if (!scene) return tl::unexpected(scene.error());
+        if (!scene) return scene.error();
         FieldDesc desc;
         desc.raysPerProbe = rays;
         desc.rules = rules;
         const auto grid = placeGrid(poseAt(*scene).bounds, placement);
-        if (!grid) return tl::unexpected(grid.error());
+        if (!grid) return grid.error();
         desc.grid = *grid;
         auto measured = measureMotion(context, name, *scene, desc);
-        if (!measured) return tl::unexpected(measured.error());
+        if (!measured) return measured.error();
         rows.push_back(std::move(*measured));
         return {};
     };
     const PlacementDesc cornell{.counts = {8, 8, 8}}, other{.targetProbes = 1500};
     for (const FieldRules rules : {FieldRules::paper, FieldRules::measured})
         for (const int rays : {64, 144, 512})
-            if (auto done = add("cornell", cornell, rays, rules); !done) return tl::unexpected(done.error());
+            if (auto done = add("cornell", cornell, rays, rules); !done) return done.error();
     for (const char* name : {"house", "atrium"})
-        if (auto done = add(name, other, FieldDesc{}.raysPerProbe, FieldRules::measured); !done)
-            return tl::unexpected(done.error());
+        if (auto done = add(name, other, FieldDesc{}.raysPerProbe, FieldRules::measured); !done) return done.error();
     return motionTable(rows);
 }
 
 Result<void> measure(const Options& options) {
     const auto context = tool::makeContext(options.threads);
-    if (!context) return tl::unexpected(context.error());
+    if (!context) return context.error();
     const auto backend = tool::openBackend(*context, {});
-    if (!backend) return tl::unexpected(backend.error());
+    if (!backend) return backend.error();
     std::vector<MeasuredScene> scenes;
     const auto wanted = [&](const std::string& name) { return options.only.empty() || options.only == name; };
     for (const Case& entry : cases(options)) {
         if (!wanted(entry.name)) continue;
         const auto setup = tool::loadSetup(entry.options);
-        if (!setup) return tl::unexpected(setup.error());
+        if (!setup) return setup.error();
         auto rendered = tool::renderForReport(*context, **backend, *setup, settingsOf(options));
-        if (!rendered) return tl::unexpected(rendered.error());
+        if (!rendered) return rendered.error();
         scenes.push_back({entry.name, std::move(*rendered)});
     }
     std::vector<LeakResult> leaks;
     for (const float thickness : {0.02f, 0.05f, 0.10f, 0.20f, 0.30f}) {
         if (!wanted("leak")) break;
         const auto leak = measureLeak(*context, thickness);
-        if (!leak) return tl::unexpected(leak.error());
+        if (!leak) return leak.error();
         leaks.push_back(*leak);
     }
     std::string tables = accuracyTables(scenes, leaks, context->threads());
     if (wanted("surfaces")) {
         const auto table = surfaces(*context, options);
-        if (!table) return tl::unexpected(table.error());
+        if (!table) return table.error();
         tables += *table;
     }
     if (wanted("motion")) {
         const auto table = motion(*context);
-        if (!table) return tl::unexpected(table.error());
+        if (!table) return table.error();
         tables += *table;
     }
     if (!options.page.empty() && options.only.empty()) return replaceBetweenMarkers(options.page, tables);

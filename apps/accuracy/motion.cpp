@@ -39,6 +39,13 @@ struct World {
     std::unique_ptr<Tracer> tracer;
 };
 
+/// A value, or an exception with the error's sentence for main() to print.
+template <class T>
+T must(Result<T> result) {
+    if (!result) throw std::runtime_error(result.error().message);
+    if constexpr (!std::is_void_v<T>) return std::move(*result);
+}
+
 /// What random rays from random places meet: surfaces that somebody in the scene can see.
 std::vector<FieldQuery> surfacePoints(const World& world) {
     std::mt19937 random(7);
@@ -52,20 +59,13 @@ std::vector<FieldQuery> surfacePoints(const World& world) {
     }
     std::vector<Hit> hits(rays.size());
     std::vector<Surface> surfaces(rays.size());
-    world.tracer->closestHits(rays, hits);
-    world.tracer->surfaces(rays, hits, surfaces);
+    must(world.tracer->closestHits(rays, hits));
+    must(world.tracer->surfaces(rays, hits, surfaces));
     std::vector<FieldQuery> points;
     for (std::size_t i = 0; i < rays.size() && points.size() < kPoints; ++i)
         if (hits[i].valid() && !surfaces[i].backface)
             points.push_back({surfaces[i].position, surfaces[i].shadingNormal, -rays[i].direction});
     return points;
-}
-
-/// A value, or an exception with the error's sentence for main() to print.
-template <class T>
-T must(Result<T> result) {
-    if (!result) throw std::runtime_error(result.error().message);
-    return std::move(*result);
 }
 
 /// The field at the points.

@@ -79,7 +79,7 @@ glm::vec3 cosineDirection(glm::vec3 normal, float u, float v) {
 
 /// Whether somebody could stand in front of the surface: most of what it sees are fronts (or sky), and something is
 /// not so near that the point lies in a crack.
-bool inTheOpen(const Tracer& tracer, glm::vec3 position, glm::vec3 normal, float scale, Uniform& uniform) {
+Result<bool> inTheOpen(const Tracer& tracer, glm::vec3 position, glm::vec3 normal, float scale, Uniform& uniform) {
     std::array<Ray, kOpenRays> rays;
     for (Ray& ray : rays) {
         const float u = uniform(), v = uniform();
@@ -88,8 +88,8 @@ bool inTheOpen(const Tracer& tracer, glm::vec3 position, glm::vec3 normal, float
     }
     std::array<Hit, kOpenRays> hits;
     std::array<Surface, kOpenRays> surfaces;
-    tracer.closestHits(rays, hits);
-    tracer.surfaces(rays, hits, surfaces);
+    if (auto hit = tracer.closestHits(rays, hits); !hit) return hit.error();
+    if (auto found = tracer.surfaces(rays, hits, surfaces); !found) return found.error();
     int backs = 0, far = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         backs += hits[i].valid() && surfaces[i].backface ? 1 : 0;
@@ -100,7 +100,8 @@ bool inTheOpen(const Tracer& tracer, glm::vec3 position, glm::vec3 normal, float
 
 }  // namespace
 
-std::vector<FieldQuery> surfaceQueries(const Scene& scene, const ScenePose& pose, const Tracer& tracer, int count) {
+Result<std::vector<FieldQuery>> surfaceQueries(const Scene& scene, const ScenePose& pose, const Tracer& tracer,
+                                               int count) {
     const Triangles all = worldTriangles(scene, pose);
     std::vector<FieldQuery> queries;
     if (all.list.empty() || !(all.areaSum.back() > 0)) return queries;
@@ -116,8 +117,9 @@ std::vector<FieldQuery> surfaceQueries(const Scene& scene, const ScenePose& pose
         glm::vec3 normal = glm::normalize(glm::cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]));
         if (t.doubleSided && side < 0.5f) normal = -normal;
         if (!std::isfinite(normal.x)) continue;
-        if (inTheOpen(tracer, position, normal, scale, uniform))
-            queries.push_back({position, normal, cosineDirection(normal, a, b)});
+        const auto open = inTheOpen(tracer, position, normal, scale, uniform);
+        if (!open) return open.error();
+        if (*open) queries.push_back({position, normal, cosineDirection(normal, a, b)});
     }
     return queries;
 }
@@ -125,11 +127,13 @@ std::vector<FieldQuery> surfaceQueries(const Scene& scene, const ScenePose& pose
 Result<SurfacePoints> traceSurfacePoints(const Context& context, const tool::LoadedSetup& setup, const Tracer& tracer,
                                          int count, int samples) {
     SurfacePoints points;
-    points.queries = surfaceQueries(*setup.scene, setup.pose, tracer, count);
+    auto queries = surfaceQueries(*setup.scene, setup.pose, tracer, count);
+    if (!queries) return queries.error();
+    points.queries = std::move(*queries);
     const auto reference = PathTracer::create(context, *setup.scene, setup.pose, tracer, setup.lighting);
-    if (!reference) return tl::unexpected(reference.error());
+    if (!reference) return reference.error();
     const auto truth = reference->irradiance(points.queries, samples);
-    if (!truth) return tl::unexpected(truth.error());
+    if (!truth) return truth.error();
     for (const ReferenceIrradiance& e : *truth) {
         points.truth.push_back(luminance(e.mean));
         points.standardError.push_back(luminance(e.standardError));
@@ -166,7 +170,7 @@ SurfaceError compareAtSurfaces(const std::vector<double>& field, const SurfacePo
 
 Result<SurfaceError> compareAtSurfaces(const Field& field, const SurfacePoints& points) {
     std::vector<glm::vec3> answers(points.queries.size());
-    if (const auto asked = field.irradiance(points.queries, answers); !asked) return tl::unexpected(asked.error());
+    if (const auto asked = field.irradiance(points.queries, answers); !asked) return asked.error();
     std::vector<double> light;
     for (const glm::vec3& e : answers) light.push_back(luminance(e));
     return compareAtSurfaces(light, points);
@@ -175,24 +179,24 @@ Result<SurfaceError> compareAtSurfaces(const Field& field, const SurfacePoints& 
 Result<std::vector<SurfaceRow>> measureSurface(const Context& context, const std::string& name,
                                                const tool::LoadedSetup& setup, bool updatesToo) {
     const auto tracer = makeEmbreeTracer(context, *setup.scene, setup.pose);
-    if (!tracer) return tl::unexpected(tracer.error());
+    if (!tracer) return tracer.error();
     const auto points = traceSurfacePoints(context, setup, **tracer, kPoints, kPathsPerPoint);
-    if (!points) return tl::unexpected(points.error());
+    if (!points) return points.error();
     std::vector<SurfaceRow> rows;
     for (const bool plain : {false, true}) {
         if (plain && !updatesToo) break;
         FieldDesc desc;
         desc.grid = setup.grid;
         auto field = Field::create(context, desc);
-        if (!field) return tl::unexpected(field.error());
+        if (!field) return field.error();
         if (!plain) {
             const auto done = field->converge(**tracer, setup.lighting, kTolerance, kMostUpdates);
-            if (!done) return tl::unexpected(done.error());
+            if (!done) return done.error();
         }
         for (int i = 0; plain && i < kPlainUpdates; ++i)
-            if (const auto done = field->update(**tracer, setup.lighting); !done) return tl::unexpected(done.error());
+            if (const auto done = field->update(**tracer, setup.lighting); !done) return done.error();
         const auto error = compareAtSurfaces(*field, *points);
-        if (!error) return tl::unexpected(error.error());
+        if (!error) return error.error();
         rows.push_back({name, probeCount(setup.grid), plain ? "300 updates" : "converge", *error});
     }
     return rows;

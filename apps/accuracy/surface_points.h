@@ -37,7 +37,8 @@ struct SurfaceRow {
 };
 
 /// `count` points of the scene, the same for the same scene; fewer where most of it lies inside matter.
-std::vector<FieldQuery> surfaceQueries(const Scene& scene, const ScenePose& pose, const Tracer& tracer, int count);
+Result<std::vector<FieldQuery>> surfaceQueries(const Scene& scene, const ScenePose& pose, const Tracer& tracer,
+                                               int count);
 
 /// The truth at those points, `samples` paths a point. Errors: those of PathTracer.
 Result<SurfacePoints> traceSurfacePoints(const Context& context, const tool::LoadedSetup& setup, const Tracer& tracer,

@@ -65,10 +65,10 @@ Result<Reported> measure(const BenchOptions& options, const LoadedSetup& setup) 
     const std::string name = setup.scene->name.empty() ? options.scene.scene : setup.scene->name;
     if (options.backend.kind == BackendKind::vulkan)
         return runGpuBench(setup, options.backend, makePlan(options), showProgress)
-            .map([&](const GpuBenchResult& result) {
+            .transform([&](const GpuBenchResult& result) {
                 return Reported{gpuBenchMarkdown(result, name), gpuBenchJson(result, name)};
             });
-    return runBench(setup, makePlan(options), showProgress).map([&](const BenchResult& result) {
+    return runBench(setup, makePlan(options), showProgress).transform([&](const BenchResult& result) {
         return Reported{benchMarkdown(result, name), benchJson(result, name)};
     });
 }
@@ -77,10 +77,10 @@ Result<void> bench(const BenchOptions& options) {
     if (!options.json.empty())
         if (auto checked = checkOutput(options.json, {}); !checked) return checked;
     const auto setup = loadSetup(options.scene);
-    if (!setup) return tl::unexpected(setup.error());
+    if (!setup) return setup.error();
     const auto reported = measure(options, *setup);
     if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K");
-    if (!reported) return tl::unexpected(reported.error());
+    if (!reported) return reported.error();
     fmt::print("{}", reported->markdown);
     return options.json.empty() ? Result<void>() : writeText(options.json, reported->json);
 }

@@ -1,6 +1,10 @@
 #include "bench_floor.h"
 
+#if PROBEGI_EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -51,14 +55,20 @@ private:
 
 void traceInOrder(RTCScene scene, std::span<const Ray> rays) {
     const FlushDenormals mode;
+#if RTC_VERSION_MAJOR < 4
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+#endif
     for (const Ray& ray : rays) {
         RTCRayHit query;
         query.ray = {ray.origin.x,    ray.origin.y,    ray.origin.z, ray.near, ray.direction.x, ray.direction.y,
                      ray.direction.z, 0.0f /* time */, ray.far,      ~0u,      0 /* id */,      0 /* flags */};
         query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR < 4
         rtcIntersect1(scene, &context, &query);
+#else
+        rtcIntersect1(scene, &query);
+#endif
     }
 }
 

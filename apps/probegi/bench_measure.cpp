@@ -69,34 +69,36 @@ private:
 
 Result<std::unique_ptr<Bench>> Bench::create(const LoadedSetup& setup, const BenchPlan& plan) {
     const auto all = quietContext(plan.threads), one = quietContext(1);
-    if (!all) return tl::unexpected(all.error());
+    if (!all) return all.error();
     auto raw = RawEmbree::create(*setup.scene, setup.pose, all->threads(), false);
-    if (!raw) return tl::unexpected(raw.error());
+    if (!raw) return raw.error();
     auto robust = RawEmbree::create(*setup.scene, setup.pose, all->threads(), true);
-    if (!robust) return tl::unexpected(robust.error());
+    if (!robust) return robust.error();
     std::unique_ptr<Bench> bench(new Bench(setup, plan, *all, *one, std::move(*raw), std::move(*robust)));
 
     auto tracer = makeEmbreeTracer(*all, *setup.scene, setup.pose);
-    if (!tracer) return tl::unexpected(tracer.error());
+    if (!tracer) return tracer.error();
     bench->m_tracer = std::move(*tracer);
     FieldDesc desc;
     desc.grid = setup.grid;
     desc.raysPerProbe = plan.raysPerProbe;
     auto field = Field::create(*all, desc), alone = Field::create(*one, desc);
-    if (!field) return tl::unexpected(field.error());
-    if (!alone) return tl::unexpected(alone.error());
+    if (!field) return field.error();
+    if (!alone) return alone.error();
     bench->m_field.emplace(std::move(*field));
     bench->m_fieldAlone.emplace(std::move(*alone));
     bench->m_primary = primaryRays(setup.camera, plan.width, plan.height);
-    bench->m_points = visiblePoints(*bench->m_tracer, bench->m_primary);
+    auto points = visiblePoints(*bench->m_tracer, bench->m_primary);
+    if (!points) return points.error();
+    bench->m_points = std::move(*points);
     bench->m_irradiance.resize(bench->m_points.size());
     return bench;
 }
 
 Result<void> Bench::warmUp() {
     const auto done = m_field->converge(*m_tracer, m_setup.lighting, 1e-6f, kWarmUpUpdates);
-    if (!done) return tl::unexpected(done.error());
-    return round().map([](const BenchRound&) {});
+    if (!done) return done.error();
+    return round().transform([](const BenchRound&) {});
 }
 
 Result<BenchRound> Bench::round() {
@@ -107,13 +109,13 @@ Result<BenchRound> Bench::round() {
         round.robustFloor = m_robust.trace(rays);
     }
     const auto times = m_field->update(*m_tracer, m_setup.lighting);
-    if (!times) return tl::unexpected(times.error());
+    if (!times) return times.error();
     round.update = *times;
 
     const std::uint64_t fallbacks = m_field->fallbackQueries();
     auto start = Clock::now();
     const auto asked = m_field->irradiance(m_points, m_irradiance);
-    if (!asked) return tl::unexpected(asked.error());
+    if (!asked) return asked.error();
     round.query = millisecondsSince(start);
     round.fallbacks = double(m_field->fallbackQueries() - fallbacks);
 
@@ -121,11 +123,11 @@ Result<BenchRound> Bench::round() {
     start = Clock::now();
     const auto picture = renderPicture(m_all, *m_tracer, m_setup.lighting, &*m_field,
                                        {m_setup.camera, m_plan.width, m_plan.height, 1, false});
-    if (!picture) return tl::unexpected(picture.error());
+    if (!picture) return picture.error();
     round.picture = millisecondsSince(start);
 
     const auto alone = m_fieldAlone->update(*m_tracer, m_setup.lighting);
-    if (!alone) return tl::unexpected(alone.error());
+    if (!alone) return alone.error();
     round.updateAlone = alone->total;
     return round;
 }
@@ -152,12 +154,12 @@ Result<void> Bench::growth(BenchResult& result, const BenchProgress& progress) c
         placement.counts = volume.counts;
         placement.marginCells = 0;  // the same space for all: coarse grids have wide margins, where rays meet nothing
         const auto grid = placeGrid(m_setup.pose.bounds, placement);
-        if (!grid) return tl::unexpected(grid.error());
+        if (!grid) return grid.error();
         FieldDesc desc;
         desc.grid = *grid;
         desc.raysPerProbe = volume.raysPerProbe;
         auto field = Field::create(m_all, desc);
-        if (!field) return tl::unexpected(field.error());
+        if (!field) return field.error();
         fields.push_back(std::move(*field));
         result.growth.push_back({probeCount(*grid), volume.raysPerProbe, {}});
     }
@@ -168,8 +170,7 @@ Result<void> Bench::growth(BenchResult& result, const BenchProgress& progress) c
             const int repeats = std::max(1, int(kLeastGrowthRays / rays));
             const auto start = Clock::now();
             for (int k = 0; k < repeats; ++k)
-                if (const auto done = fields[i].update(*m_tracer, m_setup.lighting); !done)
-                    return tl::unexpected(done.error());
+                if (const auto done = fields[i].update(*m_tracer, m_setup.lighting); !done) return done.error();
             if (round > 0) result.growth[i].ms.push_back(millisecondsSince(start) / repeats);
         }
     }
@@ -187,16 +188,16 @@ double BenchResult::median(const std::function<double(const BenchRound&)>& value
 Result<BenchResult> runBench(const LoadedSetup& setup, const BenchPlan& plan, const BenchProgress& progress) {
     progress("warming up", 0, plan.rounds);
     const auto bench = Bench::create(setup, plan);
-    if (!bench) return tl::unexpected(bench.error());
-    if (const auto done = (*bench)->warmUp(); !done) return tl::unexpected(done.error());
+    if (!bench) return bench.error();
+    if (const auto done = (*bench)->warmUp(); !done) return done.error();
     BenchResult result = (*bench)->facts();
     for (int round = 1; round <= plan.rounds; ++round) {
         progress("stages", round, plan.rounds);
         const auto measured = (*bench)->round();
-        if (!measured) return tl::unexpected(measured.error());
+        if (!measured) return measured.error();
         result.rounds.push_back(*measured);
     }
-    if (const auto done = (*bench)->growth(result, progress); !done) return tl::unexpected(done.error());
+    if (const auto done = (*bench)->growth(result, progress); !done) return done.error();
     return result;
 }
 

@@ -21,15 +21,15 @@ std::vector<Ray> primaryRays(const PlacedCamera& camera, int width, int height) 
     return rays;
 }
 
-std::vector<FieldQuery> visiblePoints(const Tracer& tracer, std::span<const Ray> rays) {
+Result<std::vector<FieldQuery>> visiblePoints(const Tracer& tracer, std::span<const Ray> rays) {
     constexpr std::size_t kBatch = 65536;  // surfaces are large
     std::vector<FieldQuery> points;
     for (std::size_t begin = 0; begin < rays.size(); begin += kBatch) {
         const auto batch = rays.subspan(begin, std::min(kBatch, rays.size() - begin));
         std::vector<Hit> hits(batch.size());
         std::vector<Surface> surfaces(batch.size());
-        tracer.closestHits(batch, hits);
-        tracer.surfaces(batch, hits, surfaces);
+        if (auto hit = tracer.closestHits(batch, hits); !hit) return hit.error();
+        if (auto found = tracer.surfaces(batch, hits, surfaces); !found) return found.error();
         for (std::size_t i = 0; i < batch.size(); ++i)
             if (hits[i].valid())
                 points.push_back({surfaces[i].position, surfaces[i].shadingNormal, -batch[i].direction});

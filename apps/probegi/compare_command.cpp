@@ -54,16 +54,16 @@ Result<void> compare(const CompareOptions& options) {
     if (writesMap)
         if (auto checked = checkOutput(options.heatmap, pictureExtensions()); !checked) return checked;
     const auto test = readImage(options.test);
-    if (!test) return tl::unexpected(test.error());
+    if (!test) return test.error();
     const auto reference = readImage(options.reference);
-    if (!reference) return tl::unexpected(reference.error());
+    if (!reference) return reference.error();
     if (test->width != reference->width || test->height != reference->height)
         return fail(
             ErrorCode::invalidArgument,
             fmt::format("'{}' is {}x{} and '{}' is {}x{}; pictures must be of one size to be compared", options.test,
                         test->width, test->height, options.reference, reference->width, reference->height));
     const auto comparison = compareImages(*test, *reference, ToneMap{options.exposure, false});
-    if (!comparison) return tl::unexpected(comparison.error());
+    if (!comparison) return comparison.error();
     if (writesMap) {
         const HdrImage map = linearFromDisplay(heatmap(comparison->flipMap));
         if (auto written = writeImage(options.heatmap, map); !written) return written;

@@ -47,7 +47,7 @@ void printJson(const std::vector<vulkan::DeviceInfo>& devices) {
 
 Result<void> listDevices(bool json) {
     const auto devices = vulkan::listDevices();
-    if (!devices) return tl::unexpected(devices.error());
+    if (!devices) return devices.error();
     if (devices->empty() && !json)
         return fail(ErrorCode::unsupported,
                     "no Vulkan driver found a device; install a driver (mesa-vulkan-drivers has a software one)");
@@ -58,7 +58,7 @@ Result<void> listDevices(bool json) {
 #else
 
 Result<void> listDevices(bool) {
-    return tl::unexpected(builtWithoutVulkan());
+    return builtWithoutVulkan();
 }
 
 #endif

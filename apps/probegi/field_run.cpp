@@ -31,7 +31,7 @@ Result<FieldRun> updateField(Field& field, const Tracer& tracer, const Lighting&
         if (bar) bar->done(frame);
         if (options.progress) options.progress(double(frame) / frames);
         const auto times = field.update(tracer, lighting);
-        if (!times) return tl::unexpected(times.error());
+        if (!times) return times.error();
         run.updates.push_back(*times);
     }
     return run;
@@ -63,7 +63,7 @@ Result<FieldRun> runField(Field& field, const Tracer& tracer, const Lighting& li
     FieldRun run;
     const auto record = [&](const UpdateTimes& times) { run.updates.push_back(times); };
     const auto done = field.converge(tracer, lighting, toleranceOf(options), kConvergeMaxUpdates, record);
-    if (!done) return tl::unexpected(done.error());
+    if (!done) return done.error();
     run.convergence = *done;
     if (!done->converged)
         printWarning(

@@ -51,35 +51,42 @@ struct GpuBench {
 
 Result<GpuBench> makeGpuBench(const LoadedSetup& setup, const BackendOptions& backend, const BenchPlan& plan) {
     const auto context = makeContext(plan.threads);
-    if (!context) return tl::unexpected(context.error());
+    if (!context) return context.error();
     const auto device = openDevice(*context, backend);
-    if (!device) return tl::unexpected(device.error());
+    if (!device) return device.error();
     vulkan::GpuSceneDesc scene;
     scene.tracer = tracerKind(backend.tracer);
     auto tracer = vulkan::makeTracer(*context, *device, *setup.scene, setup.pose, scene);
-    if (!tracer) return tl::unexpected(tracer.error());
+    if (!tracer) return tracer.error();
     FieldDesc desc;
     desc.grid = setup.grid;
     desc.raysPerProbe = plan.raysPerProbe;
     auto field = vulkan::makeField(*context, *device, desc);
-    if (!field) return tl::unexpected(field.error());
+    if (!field) return field.error();
     auto points = visiblePoints(**tracer, primaryRays(setup.camera, plan.width, plan.height));
-    const std::size_t count = points.size();
-    return GpuBench{*context,          *device,           setup,
-                    plan.width,        plan.height,       std::move(*tracer),
-                    std::move(*field), std::move(points), std::vector<glm::vec3>(count)};
+    if (!points) return points.error();
+    const std::size_t count = points->size();
+    return GpuBench{*context,
+                    *device,
+                    setup,
+                    plan.width,
+                    plan.height,
+                    std::move(*tracer),
+                    std::move(*field),
+                    std::move(*points),
+                    std::vector<glm::vec3>(count)};
 }
 
 Result<GpuBenchRound> GpuBench::round() {
     GpuBenchRound round;
     auto start = Clock::now();
     const auto updated = field.update(*tracer, setup.lighting);
-    if (!updated) return tl::unexpected(updated.error());
+    if (!updated) return updated.error();
     round.update = millisecondsSince(start);
 
     start = Clock::now();
     const auto asked = field.irradiance(points, irradiance);
-    if (!asked) return tl::unexpected(asked.error());
+    if (!asked) return asked.error();
     round.query = millisecondsSince(start);
     for (const vulkan::PassTime& pass : vulkan::lastPassTimes(field))
         round.passes.emplace_back(pass.name, pass.milliseconds);
@@ -87,7 +94,7 @@ Result<GpuBenchRound> GpuBench::round() {
     start = Clock::now();
     const auto drawn = vulkan::renderPicture(context, device, *tracer, setup.lighting, &field,
                                              {setup.camera, width, height, 1, false});
-    if (!drawn) return tl::unexpected(drawn.error());
+    if (!drawn) return drawn.error();
     round.picture = millisecondsSince(start);
     return round;
 }
@@ -116,11 +123,10 @@ Result<GpuBenchResult> runGpuBench(const LoadedSetup& setup, const BackendOption
                                    const BenchProgress& progress) {
     progress("warming up", 0, plan.rounds);
     auto bench = makeGpuBench(setup, backend, plan);
-    if (!bench) return tl::unexpected(bench.error());
+    if (!bench) return bench.error();
     for (int update = 1; update < kWarmUpUpdates; ++update)
-        if (const auto done = bench->field.update(*bench->tracer, setup.lighting); !done)
-            return tl::unexpected(done.error());
-    if (const auto done = bench->round(); !done) return tl::unexpected(done.error());
+        if (const auto done = bench->field.update(*bench->tracer, setup.lighting); !done) return done.error();
+    if (const auto done = bench->round(); !done) return done.error();
 
     GpuBenchResult result = bench->facts();
     const bool rayQuery = backend.tracer != GpuTracer::bvh && bench->device.rayQuery();
@@ -128,7 +134,7 @@ Result<GpuBenchResult> runGpuBench(const LoadedSetup& setup, const BackendOption
     for (int round = 1; round <= plan.rounds; ++round) {
         progress("passes", round, plan.rounds);
         auto measured = bench->round();
-        if (!measured) return tl::unexpected(measured.error());
+        if (!measured) return measured.error();
         result.rounds.push_back(std::move(*measured));
     }
     return result;
@@ -137,7 +143,7 @@ Result<GpuBenchResult> runGpuBench(const LoadedSetup& setup, const BackendOption
 #else
 
 Result<GpuBenchResult> runGpuBench(const LoadedSetup&, const BackendOptions&, const BenchPlan&, const BenchProgress&) {
-    return tl::unexpected(builtWithoutVulkan());
+    return builtWithoutVulkan();
 }
 
 #endif

@@ -31,7 +31,7 @@ bool parseWhole(std::string_view text, T& value) {
     return code == std::errc() && end == text.data() + text.size();
 }
 
-tl::unexpected<Error> expected(std::string_view text, std::string_view what) {
+Error expected(std::string_view text, std::string_view what) {
     return fail(ErrorCode::invalidArgument, fmt::format("'{}' is not {}", text, what));
 }
 
@@ -55,7 +55,7 @@ Result<std::vector<float>> parseNumbers(std::string_view text, std::size_t count
 
 Result<glm::vec3> parseVector(std::string_view text) {
     const auto values = parseNumbers(text, 3);
-    if (!values) return tl::unexpected(values.error());
+    if (!values) return values.error();
     return glm::vec3((*values)[0], (*values)[1], (*values)[2]);
 }
 
@@ -79,7 +79,7 @@ Result<GridDesc> parseVolume(std::string_view text) {
     const auto spacing = parseNumbers(parts[1], single ? 1 : 3);
     const auto counts = parseCounts(parts[2]);
     if (!origin || !spacing) return expected(text, kForm);
-    if (!counts) return tl::unexpected(counts.error());
+    if (!counts) return counts.error();
     GridDesc grid;
     grid.origin = *origin;
     grid.spacing = single ? glm::vec3((*spacing)[0]) : glm::vec3((*spacing)[0], (*spacing)[1], (*spacing)[2]);

@@ -35,7 +35,7 @@ std::vector<int> spreadProbes(int count, int wanted) {
     return probes;
 }
 
-bool standsInWall(const Tracer& tracer, glm::vec3 position) {
+Result<bool> standsInWall(const Tracer& tracer, glm::vec3 position) {
     std::vector<Ray> rays(kWallRays);
     for (int i = 0; i < kWallRays; ++i) {
         const double z = 1 - (2.0 * i + 1) / kWallRays;
@@ -46,8 +46,8 @@ bool standsInWall(const Tracer& tracer, glm::vec3 position) {
     }
     std::vector<Hit> hits(kWallRays);
     std::vector<Surface> surfaces(kWallRays);
-    tracer.closestHits(rays, hits);
-    tracer.surfaces(rays, hits, surfaces);
+    if (auto hit = tracer.closestHits(rays, hits); !hit) return hit.error();
+    if (auto found = tracer.surfaces(rays, hits, surfaces); !found) return found.error();
     int backs = 0;
     for (int i = 0; i < kWallRays; ++i) backs += hits[i].valid() && surfaces[i].backface;
     return backs > kWallShare * kWallRays;
@@ -88,7 +88,9 @@ Result<ProbeTruth> traceProbeTruth(const Tracer& tracer, const PathTracer& pathT
     std::vector<int> probes;
     for (const int probe : spreadProbes(probeCount(grid), 4 * maxProbes)) {
         if (int(probes.size()) == maxProbes) break;
-        if (standsInWall(tracer, probePosition(grid, probe)))
+        const auto inWall = standsInWall(tracer, probePosition(grid, probe));
+        if (!inWall) return inWall.error();
+        if (*inWall)
             ++truth.inWalls;
         else
             probes.push_back(probe);
@@ -97,7 +99,7 @@ Result<ProbeTruth> traceProbeTruth(const Tracer& tracer, const PathTracer& pathT
     for (const int probe : probes)
         for (const glm::vec3& axis : kAxes) points.push_back({probePosition(grid, probe), axis, axis});
     const auto irradiance = pathTracer.irradiance(points, samples, 1, diffuseOnly);
-    if (!irradiance) return tl::unexpected(irradiance.error());
+    if (!irradiance) return irradiance.error();
 
     std::vector<ProbeTruth::Probe> all;
     for (std::size_t i = 0; i < probes.size(); ++i)

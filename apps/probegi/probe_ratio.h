@@ -20,8 +20,8 @@ struct ProbeTruth {
     double noise = 0;           ///< median of standardError / irradiance over the probes that count
 };
 
-/// Path traces at up to `maxProbes` probes in free space, `samples` paths a direction. Errors: those of the path
-/// tracer.
+/// Path traces at up to `maxProbes` probes in free space, `samples` paths a direction. Errors: those of both
+/// tracers.
 Result<ProbeTruth> traceProbeTruth(const Tracer& tracer, const PathTracer& pathTracer, const GridDesc& grid,
                                    int maxProbes, int samples, bool diffuseOnly);
 

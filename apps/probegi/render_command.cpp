@@ -70,11 +70,11 @@ Result<std::optional<Field>> makeField(const Backend& backend, const Tracer& tra
     if (options.rules == FieldRules::paper) desc.visibilityExponent = kPaperVisibilityExponent;
     desc.guard = options.method == Method::leaky ? LeakGuard::none : LeakGuard::moments;
     auto field = backend.makeField(desc);
-    if (!field) return tl::unexpected(field.error());
+    if (!field) return field.error();
     stats.probes = probeCount(desc.grid);
     stats.raysPerProbe = desc.raysPerProbe;
     auto run = runField(*field, tracer, setup.lighting, options.run);
-    if (!run) return tl::unexpected(run.error());
+    if (!run) return run.error();
     stats.run = std::move(*run);
     return std::move(*field);
 }
@@ -82,9 +82,9 @@ Result<std::optional<Field>> makeField(const Backend& backend, const Tracer& tra
 Result<Picture> renderWithField(const Context&, const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
                                 const RenderOptions& options, RenderStats& stats) {
     const auto field = makeField(backend, tracer, setup, options, stats);
-    if (!field) return tl::unexpected(field.error());
+    if (!field) return field.error();
     auto rendered = backend.render(tracer, setup.lighting, *field ? &**field : nullptr, pictureDesc(options, setup));
-    if (!rendered) return tl::unexpected(rendered.error());
+    if (!rendered) return rendered.error();
     stats.pictureMs = rendered->times.total;
     return std::move(rendered->picture);
 }
@@ -92,9 +92,9 @@ Result<Picture> renderWithField(const Context&, const Backend& backend, const Tr
 Result<Picture> renderReference(const Context& context, const Backend& backend, const Tracer& tracer,
                                 const LoadedSetup& setup, const RenderOptions& options, RenderStats& stats) {
     const auto field = makeField(backend, tracer, setup, options, stats);
-    if (!field) return tl::unexpected(field.error());
+    if (!field) return field.error();
     const auto pathTracer = PathTracer::create(context, *setup.scene, setup.pose, tracer, setup.lighting);
-    if (!pathTracer) return tl::unexpected(pathTracer.error());
+    if (!pathTracer) return pathTracer.error();
     ReferenceDesc desc;
     desc.picture = pictureDesc(options, setup);
     desc.seconds = options.seconds.value_or(0);
@@ -102,7 +102,7 @@ Result<Picture> renderReference(const Context& context, const Backend& backend, 
     desc.seed = options.seed;
     desc.guide = *field ? &**field : nullptr;
     auto rendered = pathTracer->render(desc);
-    if (!rendered) return tl::unexpected(rendered.error());
+    if (!rendered) return rendered.error();
     stats.pictureMs = rendered->seconds * 1000;
     return std::move(rendered->picture);
 }
@@ -129,18 +129,18 @@ Result<void> render(const RenderOptions& options) {
         if (auto checked = checkOutput(options.stats, {}); !checked) return checked;
     warnAboutUnusedOptions(options);
     const auto context = makeContext(options.scene.threads);
-    if (!context) return tl::unexpected(context.error());
+    if (!context) return context.error();
     const auto backend = openBackend(*context, options.backend);
-    if (!backend) return tl::unexpected(backend.error());
+    if (!backend) return backend.error();
     const auto setup = loadSetup(options.scene);
-    if (!setup) return tl::unexpected(setup.error());
+    if (!setup) return setup.error();
     const auto tracer = (*backend)->makeTracer(*setup->scene, setup->pose);
-    if (!tracer) return tl::unexpected(tracer.error());
+    if (!tracer) return tracer.error();
 
     RenderStats stats;
     const auto draw = options.method == Method::reference ? renderReference : renderWithField;
     const auto picture = draw(*context, **backend, **tracer, *setup, options, stats);
-    if (!picture) return tl::unexpected(picture.error());
+    if (!picture) return picture.error();
     const ToneMap toneMap{shownExposure(*setup, picture->color), options.filmic};
     if (setup->automaticExposure && isLight(options.aov) && options.output.ends_with(".png"))
         fmt::print("exposure {:.4g}, found automatically; the same for another picture: --exposure {:.4g}\n",

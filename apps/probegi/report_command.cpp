@@ -109,7 +109,7 @@ Result<std::vector<LoadedSetup>> loadAll(const ReportOptions& options) {
     for (const std::string& name : names) {
         one.scene = name;
         auto setup = loadSetup(one);
-        if (!setup) return tl::unexpected(setup.error());
+        if (!setup) return setup.error();
         setups.push_back(std::move(*setup));
     }
     return setups;
@@ -134,11 +134,11 @@ Result<void> writeReport(const ReportOptions& options, const CLI::App& command) 
     const fs::path folder(options.folder);
     WholeBar bar;
     const auto context = makeContext(options.scene.threads, bar);
-    if (!context) return tl::unexpected(context.error());
+    if (!context) return context.error();
     const auto backend = openBackend(*context, options.backend);
-    if (!backend) return tl::unexpected(backend.error());
+    if (!backend) return backend.error();
     const auto setups = loadAll(options);
-    if (!setups) return tl::unexpected(setups.error());
+    if (!setups) return setups.error();
     if (auto made = makeFolder(folder); !made) return made;
     ReportSettings settings = settingsOf(options);
     planProgress(*setups, settings, bar);
@@ -151,9 +151,9 @@ Result<void> writeReport(const ReportOptions& options, const CLI::App& command) 
         const std::string& name = i == 0 ? options.scene.scene : options.more[i - 1];
         const LoadedSetup& setup = (*setups)[i];
         const auto rendered = renderForReport(*context, **backend, setup, settings);
-        if (!rendered) return tl::unexpected(rendered.error());
+        if (!rendered) return rendered.error();
         auto section = describeScene(*rendered, {folder, filePrefix(name, taken), sceneTitle(name)}, !options.plain);
-        if (!section) return tl::unexpected(section.error());
+        if (!section) return section.error();
         report.scenes.push_back(std::move(*section));
         numbers.push_back(sceneNumbers(*rendered));
         numbers.back()["scene"] = name;

@@ -32,7 +32,7 @@ constexpr ToneMap kPlain{.exposure = 1, .filmic = false, .dither = false};
 Result<std::string> pngBytes(const ReportPlace& place, const std::string& name, const HdrImage& image,
                              const ToneMap& display, bool keep) {
     const auto path = place.folder / fmt::format("{}-{}.png", place.prefix, name);
-    if (auto written = writeImage(path, image, display); !written) return tl::unexpected(written.error());
+    if (auto written = writeImage(path, image, display); !written) return written.error();
     auto bytes = readBytes(path);
     std::error_code ignored;
     if (!keep) std::filesystem::remove(path, ignored);
@@ -50,11 +50,11 @@ struct Shown {
 Result<ReportPicture> keepPicture(const ReportPlace& place, const std::string& view, const Shown& shown) {
     ReportPicture picture = shown.text;
     auto png = pngBytes(place, view + picture.id, shown.image, shown.display, true);
-    if (!png) return tl::unexpected(png.error());
+    if (!png) return png.error();
     picture.png = std::move(*png);
     if (picture.unit.empty()) return picture;
     auto values = pngBytes(place, view + picture.id + "-values", halfFloatPlanes(shown.values), kPlain, false);
-    if (!values) return tl::unexpected(values.error());
+    if (!values) return values.error();
     picture.values = std::move(*values);
     return picture;
 }
@@ -94,7 +94,7 @@ Result<ReportPicture> lightPicture(const ReportPlace& place, const std::string& 
                        .light = true,
                        .exr = fmt::format("{}-{}{}.exr", place.prefix, prefix, light.id)};
     if (auto written = writeImage(place.folder / text.exr, light.picture.color); !written)
-        return tl::unexpected(written.error());
+        return written.error();
     return keepPicture(place, prefix, {std::move(text), light.picture.color, display, light.picture.color});
 }
 
@@ -139,7 +139,7 @@ Result<std::vector<ReportPicture>> mapsOf(const RenderedView& view, const LeakMa
                                view.noiseMap));
     std::vector<ReportPicture> maps;
     for (Result<ReportPicture>& map : made) {
-        if (!map) return tl::unexpected(map.error());
+        if (!map) return map.error();
         maps.push_back(std::move(*map));
     }
     return maps;
@@ -163,11 +163,11 @@ Result<ReportView> describeView(const RenderedView& view, const LeakMap& leaks, 
     const std::string prefix = viewPrefix(number);
     for (const Lit& light : lightings(view)) {
         auto picture = lightPicture(place, prefix, light, {view.exposure, filmic});
-        if (!picture) return tl::unexpected(picture.error());
+        if (!picture) return picture.error();
         described.pictures.push_back(std::move(*picture));
     }
     auto maps = mapsOf(view, leaks, place, prefix);
-    if (!maps) return tl::unexpected(maps.error());
+    if (!maps) return maps.error();
     described.maps = std::move(*maps);
     return described;
 }
@@ -202,7 +202,7 @@ Result<void> describeProbes(const RenderedScene& scene, const ReportPlace& place
                           .alt = fmt::format("{}: the probes, coloured by their state", place.title)};
     auto png = pngBytes(place, "probes",
                         drawProbes(scene.ddgi.picture, scene.exposure, scene.camera, scene.grid, states), kPlain, true);
-    if (!png) return tl::unexpected(png.error());
+    if (!png) return png.error();
     picture.png = std::move(*png);
     section.probes.push_back(std::move(picture));
     return {};
@@ -254,10 +254,10 @@ Result<ReportScene> describeScene(const RenderedScene& scene, const ReportPlace&
     const std::vector<const RenderedView*> views = viewsOf(scene);
     for (std::size_t i = 0; i < views.size(); ++i) {
         auto view = describeView(*views[i], leaksOf(*views[i]), place, i, views.size(), filmic);
-        if (!view) return tl::unexpected(view.error());
+        if (!view) return view.error();
         section.views.push_back(std::move(*view));
     }
-    if (auto done = describeProbes(scene, place, section); !done) return tl::unexpected(done.error());
+    if (auto done = describeProbes(scene, place, section); !done) return done.error();
     return section;
 }
 

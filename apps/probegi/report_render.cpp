@@ -83,7 +83,7 @@ Result<FieldResult> fillField(Field& field, const Tracer& tracer, const Lighting
     FieldResult result;
     const Stopwatch watch;
     auto run = runField(field, tracer, lighting, options);
-    if (!run) return tl::unexpected(run.error());
+    if (!run) return run.error();
     result.seconds = watch.seconds();
     result.run = std::move(*run);
     result.description = describeRun(result.run, options);
@@ -95,7 +95,7 @@ Result<FieldResult> fillField(Field& field, const Tracer& tracer, const Lighting
 Result<MethodResult> drawMethod(const Studio& studio, const RenderedView& view, const Field* field) {
     auto rendered =
         studio.backend.render(studio.tracer, studio.setup.lighting, field, pictureDesc(view, studio.settings));
-    if (!rendered) return tl::unexpected(rendered.error());
+    if (!rendered) return rendered.error();
     MethodResult result;
     result.picture = std::move(rendered->picture);
     result.pictureMs = rendered->times.total;
@@ -104,9 +104,9 @@ Result<MethodResult> drawMethod(const Studio& studio, const RenderedView& view, 
 
 Result<void> judge(MethodResult& method, const Picture& reference, const ToneMap& toneMap) {
     auto whole = compareImages(method.picture.color, reference.color, toneMap);
-    if (!whole) return tl::unexpected(whole.error());
+    if (!whole) return whole.error();
     const auto indirect = compareImages(method.picture.indirect, reference.indirect, toneMap);
-    if (!indirect) return tl::unexpected(indirect.error());
+    if (!indirect) return indirect.error();
     method.whole = std::move(*whole);
     method.indirectOnly = indirect->difference;
     return {};
@@ -123,7 +123,7 @@ Result<void> drawViews(const Studio& studio, RenderedScene& scene, MethodResult 
                        const Field* field) {
     for (RenderedView* view : viewsOf(scene)) {
         auto drawn = drawMethod(studio, *view, field);
-        if (!drawn) return tl::unexpected(drawn.error());
+        if (!drawn) return drawn.error();
         view->*method = std::move(*drawn);
     }
     return {};
@@ -152,7 +152,7 @@ Result<std::vector<ProbeSight>> lookAtProbes(const Field& field) {
     for (std::size_t probe = 0; probe < count; ++probe)
         for (const glm::vec3& axis : kAxes) queries.push_back({probePosition(grid, int(probe)), axis, axis});
     std::vector<glm::vec3> answers(queries.size());
-    if (const auto asked = field.irradiance(queries, answers); !asked) return tl::unexpected(asked.error());
+    if (const auto asked = field.irradiance(queries, answers); !asked) return asked.error();
     std::vector<ProbeSight> probes(count);
     for (std::size_t i = 0; i < answers.size(); ++i)
         probes[i / std::size(kAxes)].irradiance +=
@@ -166,12 +166,12 @@ Result<std::vector<ProbeSight>> lookAtProbes(const Field& field) {
 Result<FieldPicture> drawRealtime(const Studio& studio, const RenderedScene& scene) {
     studio.begin(kRealtime);
     auto fresh = studio.backend.makeField(fieldDesc(studio));
-    if (!fresh) return tl::unexpected(fresh.error());
+    if (!fresh) return fresh.error();
     auto filled = fillAndMeasure(studio, scene.truth, *fresh,
                                  {studio.settings.realtimeUpdates, {}, studio.settings.run.progress});
-    if (!filled) return tl::unexpected(filled.error());
+    if (!filled) return filled.error();
     auto drawn = drawMethod(studio, scene, &*fresh);
-    if (!drawn) return tl::unexpected(drawn.error());
+    if (!drawn) return drawn.error();
     return FieldPicture{std::move(*filled), std::move(*drawn)};
 }
 
@@ -179,37 +179,37 @@ Result<FieldPicture> drawRealtime(const Studio& studio, const RenderedScene& sce
 /// field comes back for whoever wants to be guided by it.
 Result<Field> drawFields(const Studio& studio, RenderedScene& scene) {
     auto field = studio.backend.makeField(fieldDesc(studio));
-    if (!field) return tl::unexpected(field.error());
+    if (!field) return field.error();
     for (const auto& [guard, piece, result, method] :
          {std::tuple(LeakGuard::none, kLeakyField, &scene.leakyField, &RenderedView::leaky),
           std::tuple(LeakGuard::moments, kField, &scene.ddgiField, &RenderedView::ddgi)}) {
         studio.begin(piece);
         field->setGuard(guard);
         auto filled = fillAndMeasure(studio, scene.truth, *field, studio.settings.run);
-        if (!filled) return tl::unexpected(filled.error());
+        if (!filled) return filled.error();
         *result = std::move(*filled);
-        if (auto drawn = drawViews(studio, scene, method, &*field); !drawn) return tl::unexpected(drawn.error());
+        if (auto drawn = drawViews(studio, scene, method, &*field); !drawn) return drawn.error();
     }
     auto probes = lookAtProbes(*field);
-    if (!probes) return tl::unexpected(probes.error());
+    if (!probes) return probes.error();
     scene.probes = std::move(*probes);
     if (!studio.settings.realtimeUpdates) return std::move(*field);
     auto realtime = drawRealtime(studio, scene);
-    if (!realtime) return tl::unexpected(realtime.error());
+    if (!realtime) return realtime.error();
     scene.realtime = std::move(*realtime);
     return std::move(*field);
 }
 
 Result<void> scoreNoise(RenderedView& view, std::uint64_t seed) {
     auto whole = noiseScore(view.reference.color, view.referenceError, seed, view.exposure);
-    if (!whole) return tl::unexpected(whole.error());
+    if (!whole) return whole.error();
     view.noiseFloor = whole->difference;
     view.noiseMap = std::move(whole->flipMap);
     HdrImage indirectError = view.referenceError;
     for (std::size_t i = 0; i < indirectError.pixels.size(); ++i)
         indirectError.pixels[i] = glm::min(indirectError.pixels[i], view.reference.indirect.pixels[i]);
     const auto indirect = noiseScore(view.reference.indirect, indirectError, seed, view.exposure);
-    if (!indirect) return tl::unexpected(indirect.error());
+    if (!indirect) return indirect.error();
     view.indirectNoiseFloor = indirect->difference;
     return {};
 }
@@ -224,7 +224,7 @@ Result<void> drawReference(const PathTracer& pathTracer, const Studio& studio, c
     desc.samplesPerPixel = settings.samplesPerPixel;
     desc.seed = settings.seed;
     auto reference = pathTracer.render(desc);
-    if (!reference) return tl::unexpected(reference.error());
+    if (!reference) return reference.error();
     view.referenceSamples = reference->samplesPerPixel;
     view.referenceSeconds = reference->seconds;
     view.referenceNoise = relativeNoise(*reference);
@@ -291,14 +291,14 @@ Result<RenderedScene> renderForReport(const Context& context, const Backend& bac
     if (settings.onPiece) settings.onPiece(kSetUp);
     const Stopwatch watch;
     const auto tracer = makeEmbreeTracer(context, *setup.scene, setup.pose);
-    if (!tracer) return tl::unexpected(tracer.error());
+    if (!tracer) return tracer.error();
     const auto pathTracer = PathTracer::create(context, *setup.scene, setup.pose, **tracer, setup.lighting);
-    if (!pathTracer) return tl::unexpected(pathTracer.error());
+    if (!pathTracer) return pathTracer.error();
     scene.prepareSeconds = watch.seconds();
     std::unique_ptr<Tracer> another;  // where the reference's is not the backend's
     if (backend.kind() != BackendKind::cpu) {
         auto made = backend.makeTracer(*setup.scene, setup.pose);
-        if (!made) return tl::unexpected(made.error());
+        if (!made) return made.error();
         another = std::move(*made);
     }
     const Studio studio{backend, another ? *another : **tracer, setup, settings};
@@ -306,16 +306,16 @@ Result<RenderedScene> renderForReport(const Context& context, const Backend& bac
     studio.begin(kProbeTruth);
     auto truth = traceProbeTruth(**tracer, *pathTracer, setup.grid, settings.ratioProbes, settings.ratioSamples,
                                  settings.diffuseOnly);
-    if (!truth) return tl::unexpected(truth.error());
+    if (!truth) return truth.error();
     scene.truth = std::move(*truth);
     studio.begin(kWithout);
     if (auto drawn = drawViews(studio, scene, &RenderedView::none, nullptr); !drawn)
-        return tl::unexpected(drawn.error());
+        return drawn.error();
     const auto field = drawFields(studio, scene);
-    if (!field) return tl::unexpected(field.error());
+    if (!field) return field.error();
     for (RenderedView* view : viewsOf(scene))
-        if (auto done = drawReference(*pathTracer, studio, *field, *view); !done) return tl::unexpected(done.error());
-    if (auto done = compareViews(studio, scene); !done) return tl::unexpected(done.error());
+        if (auto done = drawReference(*pathTracer, studio, *field, *view); !done) return done.error();
+    if (auto done = compareViews(studio, scene); !done) return done.error();
     return scene;
 }
 

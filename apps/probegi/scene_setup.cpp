@@ -52,7 +52,7 @@ Result<Sky> parseSky(const std::string& text) {
     if (!image)
         return fail(image.error().code,
                     fmt::format("--sky is neither R,G,B nor a readable picture: {}", image.error().message));
-    if (const auto clean = cleanSky(*image, text); !clean) return tl::unexpected(clean.error());
+    if (const auto clean = cleanSky(*image, text); !clean) return clean.error();
     sky.radiance = glm::vec3(1.0f);
     sky.image = std::move(*image);
     return sky;
@@ -72,7 +72,7 @@ Result<Lighting> makeLighting(const SceneOptions& options, const Scene& scene, c
     lighting.sky = scene.sky;
     if (!options.sky.empty()) {
         auto sky = parseSky(options.sky);
-        if (!sky) return tl::unexpected(sky.error());
+        if (!sky) return sky.error();
         lighting.sky = std::move(*sky);
     }
     return lighting;
@@ -162,7 +162,7 @@ std::vector<std::string> gridWarnings(const LoadedSetup& setup) {
 Result<LoadedScene> readScene(const SceneOptions& options) {
     if (options.scene.rfind(kBuiltinPrefix, 0) != 0) return loadScene(options.scene);
     auto scene = makeBuiltinScene(std::string_view(options.scene).substr(kBuiltinPrefix.size()), options.builtin);
-    if (!scene) return tl::unexpected(scene.error());
+    if (!scene) return scene.error();
     return LoadedScene{std::move(*scene), {}};
 }
 
@@ -176,7 +176,7 @@ bool hasLight(const Scene& scene, const ScenePose& pose, const Lighting& lightin
 
 Result<LoadedSetup> loadSetup(const SceneOptions& options) {
     auto loaded = readScene(options);
-    if (!loaded) return tl::unexpected(loaded.error());
+    if (!loaded) return loaded.error();
     LoadedSetup setup;
     setup.warnings = std::move(loaded->warnings);
     for (const std::string& warning : setup.warnings) printWarning(warning);
@@ -187,7 +187,7 @@ Result<LoadedSetup> loadSetup(const SceneOptions& options) {
     setup.automaticExposure = exposure.automatic;
 
     auto lighting = makeLighting(options, *setup.scene, setup.pose);
-    if (!lighting) return tl::unexpected(lighting.error());
+    if (!lighting) return lighting.error();
     setup.lighting = std::move(*lighting);
     if (!hasLight(*setup.scene, setup.pose, setup.lighting))
         return fail(ErrorCode::invalidArgument,
@@ -200,10 +200,10 @@ Result<LoadedSetup> loadSetup(const SceneOptions& options) {
             fmt::format("'{}' has no triangles, there is nothing to light; choose another scene", options.scene));
 
     const auto camera = makeCamera(options, setup.pose);
-    if (!camera) return tl::unexpected(camera.error());
+    if (!camera) return camera.error();
     setup.camera = *camera;
     const auto grid = makeGrid(options, *setup.scene, setup.pose);
-    if (!grid) return tl::unexpected(grid.error());
+    if (!grid) return grid.error();
     setup.grid = *grid;
     for (std::string& warning : gridWarnings(setup)) {
         printWarning(warning);

@@ -59,14 +59,14 @@ Result<vulkan::Device> openDevice(const Context& context, const BackendOptions& 
 
 Result<std::unique_ptr<Backend>> openVulkanBackend(const Context& context, const BackendOptions& options) {
     auto device = openDevice(context, options);
-    if (!device) return tl::unexpected(device.error());
+    if (!device) return device.error();
     return std::make_unique<VulkanBackend>(context, std::move(*device), tracerKind(options.tracer));
 }
 
 #else
 
 Result<std::unique_ptr<Backend>> openVulkanBackend(const Context&, const BackendOptions&) {
-    return tl::unexpected(builtWithoutVulkan());
+    return builtWithoutVulkan();
 }
 
 #endif

@@ -47,7 +47,7 @@ Result<Scene> readScene(const std::string& name) {
     constexpr std::string_view kBuiltin = "builtin:";
     if (name.rfind(kBuiltin, 0) == 0) return makeBuiltinScene(name.substr(kBuiltin.size()));
     auto loaded = loadScene(name);
-    if (!loaded) return tl::unexpected(loaded.error());
+    if (!loaded) return loaded.error();
     return std::move(loaded->scene);
 }
 
@@ -80,23 +80,23 @@ Cost measure(const PathTracer& tracer, ReferenceDesc desc, const Field* guide) {
 
 Result<void> bench(const std::string& name, const Settings& settings) {
     auto scene = readScene(name);
-    if (!scene) return tl::unexpected(scene.error());
+    if (!scene) return scene.error();
     const auto context = Context::create({.threads = 1, .log = {}, .progress = {}});
-    if (!context) return tl::unexpected(context.error());
+    if (!context) return context.error();
     const ScenePose pose = poseAt(*scene);
     const auto tracer = makeEmbreeTracer(*context, *scene, pose);
-    if (!tracer) return tl::unexpected(tracer.error());
+    if (!tracer) return tracer.error();
     const Lighting lighting{pose.lights, scene->sky};
     FieldDesc fieldDesc;
     const auto placed = scene->grid ? Result<GridDesc>(*scene->grid) : placeGrid(pose.bounds);
-    if (!placed) return tl::unexpected(placed.error());
+    if (!placed) return placed.error();
     fieldDesc.grid = *placed;
     auto field = Field::create(*context, fieldDesc);
-    if (!field) return tl::unexpected(field.error());
+    if (!field) return field.error();
     for (int i = 0; i < 24; ++i)
-        if (const auto done = field->update(**tracer, lighting); !done) return tl::unexpected(done.error());
+        if (const auto done = field->update(**tracer, lighting); !done) return done.error();
     const auto reference = PathTracer::create(*context, *scene, pose, **tracer, lighting);
-    if (!reference) return tl::unexpected(reference.error());
+    if (!reference) return reference.error();
 
     ReferenceDesc desc;
     const std::size_t camera = std::size_t(settings.camera);

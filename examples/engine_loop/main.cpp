@@ -16,7 +16,7 @@ constexpr PlacedLight kLamp{.type = LightType::point, .position = {3, 2, 2}, .in
 
 Result<float> meanOnWalls(const Field& field, std::span<const FieldQuery> points) {
     std::vector<glm::vec3> answers(points.size());
-    if (const auto asked = field.irradiance(points, answers); !asked) return tl::unexpected(asked.error());
+    if (const auto asked = field.irradiance(points, answers); !asked) return asked.error();
     float sum = 0;
     for (const glm::vec3& e : answers) sum += e.y;
     return sum / float(points.size());
@@ -28,7 +28,7 @@ Result<float> playFrames(Field& field, const Tracer& tracer, const Lighting& lig
     field.notify(FieldEvent::largeLightChange);  // follow faster for some frames
     for (int frame = 1; frame <= kFramesPerSwitch; ++frame) {
         const auto times = field.update(tracer, lighting);
-        if (!times) return tl::unexpected(times.error());
+        if (!times) return times.error();
         if (frame % 20 != 0) continue;
         const auto mean = meanOnWalls(field, points);
         if (!mean) return mean;
@@ -42,20 +42,20 @@ Result<bool> runGame() {
     const Scene scene = room.scene();
     const ScenePose pose = poseAt(scene);
     const auto context = Context::create();
-    if (!context) return tl::unexpected(context.error());
+    if (!context) return context.error();
     const auto tracer = makeEmbreeTracer(*context, scene, pose);
-    if (!tracer) return tl::unexpected(tracer.error());
+    if (!tracer) return tracer.error();
     FieldDesc desc;
     desc.grid = {.origin = glm::vec3(-0.25f), .spacing = glm::vec3(0.5f), .counts = {14, 8, 10}};
     auto field = Field::create(*context, desc);
-    if (!field) return tl::unexpected(field.error());
+    if (!field) return field.error();
 
     std::puts("lamp on");
     const auto lit = playFrames(*field, **tracer, {.lights = {kLamp}, .sky = {}}, room);
-    if (!lit) return tl::unexpected(lit.error());
+    if (!lit) return lit.error();
     std::puts("lamp off");
     const auto dark = playFrames(*field, **tracer, {}, room);
-    if (!dark) return tl::unexpected(dark.error());
+    if (!dark) return dark.error();
 
     // All light of the lamp ends in the walls; a share `albedo` of what they receive comes back, again and again.
     const float flux = 4 * kPi * kLamp.intensity.y;

@@ -20,7 +20,7 @@ static int run() {
         field.update(*tracer, lighting).value();
     }
 
-    const FieldQuery ceiling{.position = {4.0f, 5.45f, -4.0f}, .normal = {0, -1, 0}, .toViewer = {0, -1, 0}};
+    const FieldQuery ceiling{.position = {4.0f, 5.45f, -4.0f}, .normal = {0, -1, 0}};
     const glm::vec3 e = field.irradiance(ceiling);
     std::printf("the ceiling receives %.2f %.2f %.2f W/m^2\n", e.x, e.y, e.z);
     // [/readme]
@@ -38,7 +38,7 @@ static int run() {
 int main() {
     try {
         return run();
-    } catch (const tl::bad_expected_access<Error>& failure) {
+    } catch (const BadResult& failure) {
         std::fprintf(stderr, "first_light: %s\n", failure.error().message.c_str());
         return 1;
     }

@@ -15,7 +15,7 @@ constexpr int kSwing = 30, kRest = 30;
 
 /// As .value() of a Result that has one: throws where it failed.
 void must(const Result<void>& done) {
-    if (!done) throw tl::bad_expected_access<Error>(done.error());
+    if (!done) throw BadResult(done.error());
 }
 
 struct World {
@@ -98,7 +98,7 @@ bool run() {
 int main() {
     try {
         return run() ? 0 : 1;
-    } catch (const tl::bad_expected_access<Error>& failure) {
+    } catch (const BadResult& failure) {
         std::fprintf(stderr, "moving_door: %s\n", failure.error().message.c_str());
         return 1;
     }

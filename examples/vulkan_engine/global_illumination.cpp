@@ -2,8 +2,6 @@
 
 #include <cstdio>
 
-#include "must.h"
-
 using namespace probegi;
 using namespace probegi::vulkan;
 
@@ -34,10 +32,10 @@ GlobalIllumination::GlobalIllumination(const Context& context, const EngineDevic
       m_ownRays(engine, pool, m_own) {}
 
 void GlobalIllumination::recordUpload(const vk::raii::CommandBuffer& commands) {
-    m_gpuScene.recordUpload(*commands);
-    m_lighting.recordUpload(*commands);
-    m_traced.recordClear(*commands);
-    m_own.recordClear(*commands);
+    m_gpuScene.recordUpload(*commands).value();
+    m_lighting.recordUpload(*commands).value();
+    m_traced.recordClear(*commands).value();
+    m_own.recordClear(*commands).value();
 }
 
 void GlobalIllumination::releaseStaging() {
@@ -48,23 +46,23 @@ void GlobalIllumination::releaseStaging() {
 void GlobalIllumination::record(const vk::raii::CommandBuffer& commands, const FrameData& now, vk::DeviceAddress frame,
                                 Profiler& profiler) {
     // [frame]
-    must(m_lighting.recordUpdate(*commands, lightingOf(now)));
-    must(m_gpuScene.recordPose(*commands, poseOf(m_scene, m_start, now)));
-    must(m_traced.recordUpdate(*commands, m_gpuScene, m_lighting, &profiler));
+    m_lighting.recordUpdate(*commands, lightingOf(now)).value();
+    m_gpuScene.recordPose(*commands, poseOf(m_scene, m_start, now)).value();
+    m_traced.recordUpdate(*commands, m_gpuScene, m_lighting, &profiler).value();
     // [/frame]
 
     // [own]
     profiler.recordBegin(*commands, "own rays");
     m_ownRays.record(commands, m_own, frame);
     profiler.recordEnd(*commands);
-    must(m_own.recordUpdate(*commands, m_ownRays.data(), &profiler));
+    m_own.recordUpdate(*commands, m_ownRays.data(), &profiler).value();
     // [/own]
 }
 
 void GlobalIllumination::recordQuestions(const vk::raii::CommandBuffer& commands, vk::DeviceAddress questions,
                                          std::uint32_t count, vk::DeviceAddress traced, vk::DeviceAddress own) {
-    must(m_traced.recordQuery(*commands, questions, traced, count));
-    must(m_own.recordQuery(*commands, questions, own, count));
+    m_traced.recordQuery(*commands, questions, traced, count).value();
+    m_own.recordQuery(*commands, questions, own, count).value();
 }
 
 void GlobalIllumination::printMemory() const {

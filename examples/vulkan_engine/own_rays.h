@@ -16,7 +16,7 @@ public:
     /// FrameData.
     void record(const vk::raii::CommandBuffer& commands, const probegi::vulkan::ProbeVolume& volume,
                 vk::DeviceAddress frame) const;
-    vk::DeviceAddress data() const { return m_data.address; }
+    probegi::vulkan::BufferRange data() const { return {m_data.address, m_data.bytes}; }
 
 private:
     GpuBuffer m_directions, m_data;

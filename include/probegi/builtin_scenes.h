@@ -3,6 +3,7 @@
 #include <span>
 #include <string_view>
 
+#include "probegi/export.h"
 #include "probegi/scene.h"
 
 namespace probegi {
@@ -14,7 +15,7 @@ struct BuiltinScene {
 };
 
 /// All built-in scenes, in the order in which they are best looked at.
-std::span<const BuiltinScene> builtinScenes();
+PROBEGI_API std::span<const BuiltinScene> builtinScenes();
 
 /// Parameters that some built-in scenes take; those that do not use one ignore it.
 struct BuiltinParams {
@@ -27,6 +28,6 @@ struct BuiltinParams {
 
 /// Makes a built-in scene by name. Errors: invalidArgument (unknown name; the message lists the known ones; or a
 /// parameter out of range).
-Result<Scene> makeBuiltinScene(std::string_view name, const BuiltinParams& params = {});
+PROBEGI_API Result<Scene> makeBuiltinScene(std::string_view name, const BuiltinParams& params = {});
 
 }  // namespace probegi

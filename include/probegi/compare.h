@@ -1,5 +1,6 @@
 #pragma once
 
+#include "probegi/export.h"
 #include "probegi/image.h"
 
 namespace probegi {
@@ -29,12 +30,13 @@ struct Comparison {
 };
 
 /// Errors: invalidArgument (sizes differ, or a value is not finite).
-Result<Comparison> compareImages(const HdrImage& test, const HdrImage& reference, const ToneMap& toneMap = {});
+PROBEGI_API Result<Comparison> compareImages(const HdrImage& test, const HdrImage& reference,
+                                             const ToneMap& toneMap = {});
 
 /// Colours 0..1 from dark to bright (perceptually ordered map), for error pictures. Display-referred sRGB in 0..1.
-HdrImage heatmap(const HdrImage& values);
+PROBEGI_API HdrImage heatmap(const HdrImage& values);
 
 /// Display-referred sRGB values (what heatmap returns) as linear ones: what writeImage takes.
-HdrImage linearFromDisplay(const HdrImage& display);
+PROBEGI_API HdrImage linearFromDisplay(const HdrImage& display);
 
 }  // namespace probegi

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string_view>
 
+#include "probegi/export.h"
 #include "probegi/result.h"
 
 namespace probegi {
@@ -20,8 +22,15 @@ struct ProgressReport {
 
 /// How a Context is made. All fields have working defaults.
 struct ContextDesc {
-    /// Worker threads. 0: all hardware threads. Range 0..1024. Results never depend on it.
+    /// Worker threads. 0: all hardware threads. Range 0..1024. Results never depend on it. 1: everything runs on the
+    /// calling thread. Built without oneTBB (PROBEGI_TBB=OFF) the library has no threads of its own, so that 0 means 1,
+    /// unless `parallelFor` brings some.
     int threads = 0;
+    /// The engine's own job system, in place of threads of the library's: call task(i) for every i of 0..count, on any
+    /// threads and in any order, and return when all are done. A task throws nothing; it must end on the thread where
+    /// it began, and asks for no further loop: one within a task runs on the task's thread. Empty: the library's
+    /// threads. Embree builds its trees on threads of its own in any case.
+    std::function<void(std::size_t count, const std::function<void(std::size_t)>& task)> parallelFor{};
     /// Receives log lines; empty: silence. May be called from any thread, never from two at once.
     std::function<void(LogLevel, std::string_view)> log{};
     /// Receives progress about ten times a second at most, and once with fraction 1 at the end of each stage.
@@ -29,14 +38,14 @@ struct ContextDesc {
     std::function<bool(const ProgressReport&)> progress{};
 };
 
-/// Threads, log and progress: what every pass needs and no pass owns. Cheap to copy (shared handle);
-/// there is no global state, two contexts are independent.
-class Context {
+/// Threads or the engine's jobs, log and progress: what every pass needs and no pass owns. Cheap to copy (shared
+/// handle); there is no global state, two contexts are independent.
+class PROBEGI_API Context {
 public:
-    /// Errors: invalidArgument when threads is out of range.
+    /// Errors: invalidArgument (threads is out of range), unsupported (several threads, and none are there).
     static Result<Context> create(const ContextDesc& desc = {});
 
-    int threads() const noexcept;
+    int threads() const noexcept;  ///< how many work at most
     void log(LogLevel level, std::string_view line) const;
 
     struct Impl;

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "probegi/context.h"
+#include "probegi/export.h"
 #include "probegi/grid.h"
 #include "probegi/tracer.h"
 
@@ -77,8 +78,8 @@ struct FixedRayDatum {
 /// A question to the field: how much light arrives at `position` on a surface that faces `normal`?
 struct FieldQuery {
     glm::vec3 position{0.0f};
-    glm::vec3 normal{0, 1, 0};    ///< unit
-    glm::vec3 toViewer{0, 1, 0};  ///< unit, omega_o of eq. 2; use the normal where there is no viewer
+    glm::vec3 normal{0, 1, 0};  ///< unit
+    glm::vec3 toViewer{0.0f};   ///< unit, omega_o of eq. 2; zero stands for the normal, where nobody looks
 };
 
 /// The instructions that the hot loops of CPU fields run with on this processor, as Highway names them: SSE4, AVX2,
@@ -120,7 +121,7 @@ struct FieldMemory {
 
 /// The probes' memory of what light and distance they see: irradiance and visibility, updated a little every frame and
 /// queried anywhere. Move-only. Concurrent queries are safe; an update excludes queries.
-class Field {
+class PROBEGI_API Field {
 public:
     /// Errors: invalidArgument (the message names the field and its range), outOfMemory.
     static Result<Field> create(const Context& context, const FieldDesc& desc);
@@ -148,7 +149,7 @@ public:
 
     /// One update with the library's pipeline: trace, shade with `lighting` and last frame's field, blend. All surfaces
     /// reflect as Lambert of their base colour, at most 0.99 of it: a closed room of albedo 1 has no steady state.
-    /// Errors: outOfMemory.
+    /// Errors: outOfMemory, and those of the tracer; the probes are then as they were.
     Result<UpdateTimes> update(const Tracer& tracer, const Lighting& lighting);
 
     /// For pictures of a scene that stands still: updates until the light of every region (a block of 4 x 4 x 4 probes,
@@ -158,7 +159,7 @@ public:
     /// the grid's own errors are not in it. Not counted: probes in walls, and those with less than 1e-4 of the mean
     /// light; noise of those below 1e-2 counts as if they had that much.
     /// `tolerance` > 0, maxFrames >= 1; `onUpdate`, where given, receives the times of every update. The field's events
-    /// and hysteresis take no part. Errors: cancelled, invalidArgument, outOfMemory.
+    /// and hysteresis take no part. Errors: cancelled, invalidArgument, outOfMemory, and those of the tracer.
     Result<ConvergeResult> converge(const Tracer& tracer, const Lighting& lighting, float tolerance = 0.03f,
                                     int maxFrames = 256, const std::function<void(const UpdateTimes&)>& onUpdate = {});
 
@@ -168,13 +169,13 @@ public:
     /// Changes the guard of later queries and updates; costs nothing, keeps all data.
     void setGuard(LeakGuard guard) noexcept;
 
-    /// Irradiance E in W m^-2. Unchecked and noexcept: vectors must be finite and unit. Outside the grid the nearest
-    /// cell answers. A field on a GPU that was lost answers with not-a-number.
+    /// Irradiance E in W m^-2. Unchecked and noexcept: vectors must be finite and unit (`toViewer`: or zero). Outside
+    /// the grid the nearest cell answers. A field on a GPU that was lost answers with not-a-number.
     glm::vec3 irradiance(const FieldQuery& query) const noexcept;
 
-    /// The same for many points, on all threads. The spans must be equally long (asserted).
-    /// A field on the CPU never fails. Errors: deviceLost, outOfMemory.
-    [[nodiscard]] Result<void> irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> out) const;
+    /// The same for many points, on all threads.
+    /// Errors: invalidArgument (the spans are not equally long); of a field on a GPU: deviceLost, outOfMemory.
+    Result<void> irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> out) const;
 
     /// Queries so far, those of updates included, whose eight probes all stood in walls or did not see the point, so
     /// that wider neighbours answered: above a few per cent the grid is too coarse for the scene.
@@ -206,6 +207,6 @@ struct PlacementDesc {
 
 /// A grid that covers the bounds with the asked-for margin and near-cubic cells.
 /// Errors: invalidArgument (empty or non-finite bounds, counts out of range).
-Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc = {});
+PROBEGI_API Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc = {});
 
 }  // namespace probegi

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "probegi/context.h"
+#include "probegi/export.h"
 #include "probegi/result.h"
 
 namespace probegi {
@@ -31,7 +32,7 @@ struct ToneMap {
 };
 
 /// Display-referred value in 0..1 of a linear one: exposure, curve, sRGB transfer function.
-glm::vec3 toDisplay(glm::vec3 linear, const ToneMap& toneMap);
+PROBEGI_API glm::vec3 toDisplay(glm::vec3 linear, const ToneMap& toneMap);
 
 /// The exposure at which a picture is neither too dark nor too bright: the geometric mean of its luminance, without its
 /// darkest tenth and its brightest twentieth, becomes middle grey (0.18 before the curve). A factor on the picture
@@ -40,10 +41,11 @@ float autoExposure(const HdrImage& image);
 
 /// Reads .exr, .hdr, .png or .jpg (the 8-bit ones are decoded from sRGB to linear).
 /// Errors: fileNotFound, fileUnreadable, malformed, unsupported (extension), outOfMemory (over 2^28 pixels).
-Result<HdrImage> readImage(const std::filesystem::path& path);
+PROBEGI_API Result<HdrImage> readImage(const std::filesystem::path& path);
 
 /// Writes .exr (float, linear, no tone map) or .png (8-bit sRGB through toneMap), by extension. The file appears
 /// whole or not at all (temporary name, then rename). Errors: unsupported (extension), writeFailed, invalidArgument.
-Result<void> writeImage(const std::filesystem::path& path, const HdrImage& image, const ToneMap& toneMap = {});
+PROBEGI_API Result<void> writeImage(const std::filesystem::path& path, const HdrImage& image,
+                                    const ToneMap& toneMap = {});
 
 }  // namespace probegi

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "probegi/export.h"
 #include "probegi/scene.h"
 
 namespace probegi {
@@ -17,6 +18,6 @@ struct LoadedScene {
 /// Reads glTF 2.0 (.gltf with its files beside it, or .glb). Where a file of the same stem with the ending .ini lies
 /// beside it in the form of NVIDIA's RTXGI test harness, its lights, cameras, sky and probe grid are added.
 /// Errors: fileNotFound, fileUnreadable, malformed, unsupported (a required extension, named), outOfMemory.
-Result<LoadedScene> loadScene(const std::filesystem::path& path);
+PROBEGI_API Result<LoadedScene> loadScene(const std::filesystem::path& path);
 
 }  // namespace probegi

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "probegi/export.h"
 #include "probegi/render.h"
 #include "probegi/scene.h"
 
@@ -38,7 +39,7 @@ struct ReferenceIrradiance {
 
 /// The ground truth: an unbiased path tracer with next-event estimation and multiple importance sampling
 /// (Veach 1997, chapter 9), materials as in appendix B of the glTF 2.0 specification.
-class PathTracer {
+class PROBEGI_API PathTracer {
 public:
     /// The scene must be valid; it and the tracer must outlive the path tracer. Errors: outOfMemory.
     static Result<PathTracer> create(const Context& context, const Scene& scene, const ScenePose& pose,
@@ -47,11 +48,11 @@ public:
     PathTracer& operator=(PathTracer&&) noexcept;
     ~PathTracer();
 
-    /// Errors: invalidArgument (no stopping rule, size), cancelled.
+    /// Errors: invalidArgument (no stopping rule, size), cancelled, and those of the tracer.
     Result<ReferencePicture> render(const ReferenceDesc& desc) const;
 
     /// E at each query point (toViewer is ignored), with `samples` paths a point. diffuseOnly as in PictureDesc.
-    /// `guide` as in ReferenceDesc. Errors: invalidArgument, cancelled.
+    /// `guide` as in ReferenceDesc. Errors: invalidArgument, cancelled, and those of the tracer.
     Result<std::vector<ReferenceIrradiance>> irradiance(std::span<const FieldQuery> points, int samples,
                                                         std::uint64_t seed = 1, bool diffuseOnly = true,
                                                         const Field* guide = nullptr) const;

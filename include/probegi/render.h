@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "probegi/export.h"
 #include "probegi/field.h"
 #include "probegi/image.h"
 #include "probegi/tracer.h"
@@ -42,8 +43,9 @@ struct RenderedPicture {
 };
 
 /// Ray-cast picture with shadows; `field` adds indirect light (null: none).
-/// Errors: invalidArgument (size), cancelled, outOfMemory, and those of the field's irradiance().
-Result<RenderedPicture> renderPicture(const Context& context, const Tracer& tracer, const Lighting& lighting,
-                                      const Field* field, const PictureDesc& desc);
+/// Errors: invalidArgument (size), cancelled, outOfMemory, and those of the tracer and of the field's irradiance().
+PROBEGI_API Result<RenderedPicture> renderPicture(const Context& context, const Tracer& tracer,
+                                                  const Lighting& lighting, const Field* field,
+                                                  const PictureDesc& desc);
 
 }  // namespace probegi

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "probegi/export.h"
 #include "probegi/grid.h"
 #include "probegi/image.h"
 #include "probegi/result.h"
@@ -194,18 +195,18 @@ struct ScenePose {
 
 /// Checks every index, array length and value of the scene. Errors: malformed, with the first thing that is wrong.
 /// Everything that consumes a Scene may rely on this having passed.
-Result<void> validate(const Scene& scene);
+PROBEGI_API Result<void> validate(const Scene& scene);
 
 /// Resolves hierarchy and animation at a time in seconds (clamped to the animation's span). The scene must be valid.
-ScenePose poseAt(const Scene& scene, float seconds = 0.0f);
+PROBEGI_API ScenePose poseAt(const Scene& scene, float seconds = 0.0f);
 
 /// Triangles over all instances of the pose.
-std::size_t triangleCount(const Scene& scene, const ScenePose& pose);
+PROBEGI_API std::size_t triangleCount(const Scene& scene, const ScenePose& pose);
 
 /// A camera at `from` that looks at `at`. `yfov` in radians.
-PlacedCamera lookAt(glm::vec3 from, glm::vec3 at, float yfov = 1.0471976f);
+PROBEGI_API PlacedCamera lookAt(glm::vec3 from, glm::vec3 at, float yfov = 1.0471976f);
 
 /// A camera outside the bounds that sees all of them: for scenes that bring none.
-PlacedCamera overviewCamera(const Bounds& bounds);
+PROBEGI_API PlacedCamera overviewCamera(const Bounds& bounds);
 
 }  // namespace probegi

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "probegi/context.h"
+#include "probegi/export.h"
 #include "probegi/scene.h"
 
 namespace probegi {
@@ -72,24 +73,26 @@ struct EmitterSet {
 /// Fills what follows from triangles (corners, edges, materials) and `luminance`, which must have an entry for each of
 /// their materials. Every surface of a material whose luminance is not 0 must be among the triangles. Triangles that
 /// send nothing are kept and never chosen; where none sends anything the set is empty.
-EmitterSet makeEmitterSet(std::vector<EmissiveTriangle> triangles, std::vector<float> luminance);
+PROBEGI_API EmitterSet makeEmitterSet(std::vector<EmissiveTriangle> triangles, std::vector<float> luminance);
 
 /// The first axis of the pipeline: what a ray hits. Implementations are immutable once made (but for MovableTracer) and
-/// safe to use from many threads at once. Batches may have any length; the two spans must be equally long.
-class Tracer {
+/// safe to use from many threads at once. Batches may have any length; the spans must be equally long. A tracer that
+/// failed (a lost GPU) says so: what it left in the spans is then meaningless, and whoever asked passes the error on.
+class PROBEGI_API Tracer {
 public:
     virtual ~Tracer() = default;
     /// Closest hit of each ray. Alpha masks are honoured.
-    virtual void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const = 0;
+    virtual Result<void> closestHits(std::span<const Ray> rays, std::span<Hit> hits) const = 0;
     /// Whether anything lies between near and far: 1 blocked, 0 free. Alpha masks are honoured.
-    virtual void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const = 0;
+    virtual Result<void> occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const = 0;
     /// Resolves valid hits; entries of missed rays are left as they are.
-    virtual void surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const = 0;
+    virtual Result<void> surfaces(std::span<const Ray> rays, std::span<const Hit> hits,
+                                  std::span<Surface> out) const = 0;
     /// The same with textures filtered over the cone of `spread` radians around each ray: for rays that stand alone for
     /// a pixel, whose distant textures would shimmer. A tracer that does not filter gives what surfaces() gives.
-    virtual void filteredSurfaces(std::span<const Ray> rays, std::span<const Hit> hits, float /*spread*/,
-                                  std::span<Surface> out) const {
-        surfaces(rays, hits, out);
+    virtual Result<void> filteredSurfaces(std::span<const Ray> rays, std::span<const Hit> hits, float /*spread*/,
+                                          std::span<Surface> out) const {
+        return surfaces(rays, hits, out);
     }
     /// Of everything that can be hit.
     virtual Bounds bounds() const = 0;
@@ -123,8 +126,10 @@ struct MovableDesc {
 };
 
 /// Triangles by Embree on the CPU, with textures. Meshes used once are merged, shared ones become instances.
-/// The scene must be valid and outlive the tracer. Errors: outOfMemory, invalidArgument.
-Result<std::unique_ptr<Tracer>> makeEmbreeTracer(const Context& context, const Scene& scene, const ScenePose& pose);
+/// The scene must be valid and outlive the tracer. Errors: outOfMemory, invalidArgument, unsupported (built without
+/// Embree).
+PROBEGI_API Result<std::unique_ptr<Tracer>> makeEmbreeTracer(const Context& context, const Scene& scene,
+                                                             const ScenePose& pose);
 
 /// The same for a scene in which things move. Errors: those, and invalidArgument (a node that the scene has not).
 Result<std::unique_ptr<MovableTracer>> makeMovableEmbreeTracer(const Context& context, const Scene& scene,

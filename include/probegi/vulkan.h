@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "probegi/export.h"
 #include "probegi/field.h"
 #include "probegi/render.h"
 
@@ -39,7 +40,7 @@ struct DeviceInfo {
 };
 
 /// All devices, in the order of the loader. Errors: unsupported (no Vulkan loader on this machine, or no driver).
-Result<std::vector<DeviceInfo>> listDevices();
+PROBEGI_API Result<std::vector<DeviceInfo>> listDevices();
 
 /// What an allocation will be used for.
 enum class MemoryUse : std::uint8_t {
@@ -99,7 +100,7 @@ struct OpenDesc {
 
 /// A device and what the library keeps for it: functions, pipelines, memory. Cheap to copy (shared handle). Calls on
 /// one Device from several threads must be ordered by the caller; two Devices are independent.
-class Device {
+class PROBEGI_API Device {
 public:
     /// Errors: invalidArgument (a handle is missing), unsupported (names the missing version, feature or format),
     /// outOfMemory.
@@ -129,7 +130,7 @@ struct PassTime {
 };
 
 /// GPU timestamps around passes. Give one to record functions, read it once the command buffer has finished.
-class Profiler {
+class PROBEGI_API Profiler {
 public:
     /// `maxPasses` 1..1024. Errors: outOfMemory. A queue family without timestamps gives an empty list, not an error.
     static Result<Profiler> create(const Device& device, int maxPasses = 64);
@@ -170,7 +171,7 @@ struct GpuSceneDesc {
 };
 
 /// A scene's triangles, materials and textures in GPU memory, with what the tracer needs to find hits.
-class GpuScene {
+class PROBEGI_API GpuScene {
 public:
     /// Builds the BVH on the context's threads, allocates, and fills staging memory. The scene must be valid; it is
     /// read during the call only. Errors: outOfMemory, unsupported (ray query asked for and not there), invalidArgument
@@ -182,8 +183,9 @@ public:
     ~GpuScene();
 
     /// Copies everything to the GPU and builds acceleration structures. Once, before any other use. Ends with a barrier
-    /// to compute shaders.
-    void recordUpload(VkCommandBuffer commands);
+    /// to compute shaders. Errors: invalidArgument (after releaseStaging(), there is nothing left to copy),
+    /// outOfMemory.
+    Result<void> recordUpload(VkCommandBuffer commands);
     /// Frees the staging memory. The command buffer of recordUpload() must have finished.
     void releaseStaging() noexcept;
     /// Moves the instances of GpuSceneDesc::movable and movableNodes, and refits the top level. Orders itself against
@@ -203,7 +205,7 @@ private:
 };
 
 /// Punctual lights and sky in GPU memory.
-class GpuLighting {
+class PROBEGI_API GpuLighting {
 public:
     /// Room for at least `maxLights` lights (more where the lighting has more). Errors: outOfMemory.
     static Result<GpuLighting> create(const Device& device, const Lighting& lighting, int maxLights = 16);
@@ -212,7 +214,7 @@ public:
     ~GpuLighting();
 
     /// As GpuScene's.
-    void recordUpload(VkCommandBuffer commands);
+    Result<void> recordUpload(VkCommandBuffer commands);
     void releaseStaging() noexcept;
     /// New lights and a new factor for the sky, from the command buffer itself. The sky's image stays as it was made.
     /// Errors: invalidArgument (more lights than there is room for).
@@ -227,12 +229,20 @@ private:
     std::unique_ptr<Impl> m_impl;
 };
 
+/// Part of a storage buffer that the caller fills and the library reads.
+struct BufferRange {
+    VkDeviceAddress address = 0;  ///< a multiple of 4
+    VkDeviceSize bytes = 0;       ///< from there on that may be read; 0: an empty range
+
+    bool empty() const noexcept { return bytes == 0; }
+};
+
 /// Descriptors that `probegi/query.glsl` reads, from `PROBEGI_BINDING` on, in this order.
 inline constexpr std::uint32_t kQueryBindings = 4;
 
 /// A volume of probes on the GPU: atlases, and the passes that update and query them. The same field as the CPU's:
 /// same rays in, same irradiance out.
-class ProbeVolume {
+class PROBEGI_API ProbeVolume {
 public:
     /// Errors: invalidArgument (as Field::create), unsupported (an axis has more probes than the device's images have
     /// texels for, or the probes together have more than 2^31 - 1 rays), outOfMemory.
@@ -249,11 +259,17 @@ public:
     /// As Field::fixedRayDirections: the same for all updates.
     std::span<const glm::vec3> fixedRayDirections() const noexcept;
     void notify(FieldEvent event) noexcept;
-    void setGuard(LeakGuard guard) noexcept;  ///< of passes recorded from now on
+    /// The guard of passes that are recorded from now on. Shaders of the engine that read the volume through
+    /// `probegi/query.glsl` have it from the next recordGuard(), recordUpdate(), recordQuery() or recordShading() on.
+    void setGuard(LeakGuard guard) noexcept;
+
+    /// Hands setGuard()'s guard to the shaders that read the volume, for engines that change it between updates. Orders
+    /// itself against what comes before and after in the queue; nothing where nothing has changed. Errors: outOfMemory.
+    Result<void> recordGuard(VkCommandBuffer commands);
 
     /// Clears the probes and begins at frame 0. Once before any other use, and whenever the probes shall forget
-    /// (another level). Orders itself against what comes before and after in the queue.
-    void recordClear(VkCommandBuffer commands);
+    /// (another level). Orders itself against what comes before and after in the queue. Errors: outOfMemory.
+    Result<void> recordClear(VkCommandBuffer commands);
 
     /// One update with the library's rays: trace, shade with the lighting and last frame's field, blend. Begins and
     /// ends with a barrier over all commands, so that reads of the volume before and after it in the queue need none of
@@ -262,14 +278,14 @@ public:
                               Profiler* profiler = nullptr);
 
     /// One update from the caller's own rays: RayDatum (16 bytes) [probe * raysPerProbe + ray] along rayDirections().
-    /// `rayData`: device address of a storage buffer, a multiple of 4. The caller makes the data visible to compute
-    /// shader reads. Radiance that is not a number or infinite counts as 0.
-    /// Errors: outOfMemory.
-    Result<void> recordUpdate(VkCommandBuffer commands, VkDeviceAddress rayData, Profiler* profiler = nullptr);
+    /// The caller makes the data visible to compute shader reads. Radiance that is not a number or infinite counts as
+    /// 0. Errors: invalidArgument (the range is too short for all rays, or its address is not a multiple of 4),
+    /// outOfMemory.
+    Result<void> recordUpdate(VkCommandBuffer commands, const BufferRange& rayData, Profiler* profiler = nullptr);
 
-    /// The same with fixed rays, as Field::update: `fixedRays` is the address of FixedRayDatum (12 bytes)
-    /// [probe * fixedRays + ray] along fixedRayDirections(), a multiple of 4; 0: none.
-    Result<void> recordUpdate(VkCommandBuffer commands, VkDeviceAddress rayData, VkDeviceAddress fixedRays,
+    /// The same with fixed rays, as Field::update: `fixedRays` holds FixedRayDatum (12 bytes) [probe * fixedRays + ray]
+    /// along fixedRayDirections(); an empty range: none.
+    Result<void> recordUpdate(VkCommandBuffer commands, const BufferRange& rayData, const BufferRange& fixedRays,
                               Profiler* profiler = nullptr);
 
     /// Irradiance at `count` points, at most 2^30. `queries`: address of FieldQuery[count] (36 bytes each);
@@ -317,39 +333,40 @@ struct ShadingSample {
 /// lights with shadow rays and the metallic-roughness material, then the field (null: none). The caller makes the
 /// samples visible to compute shaders before and orders its own reads after: compute shader writes.
 /// Errors: outOfMemory (compiling the passes, the first time), invalidArgument (objects of different devices).
-Result<void> recordShading(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,
-                           ProbeVolume* volume, VkDeviceAddress samples, std::uint32_t count, bool diffuseOnly = false,
-                           Profiler* profiler = nullptr);
+PROBEGI_API Result<void> recordShading(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,
+                                       ProbeVolume* volume, VkDeviceAddress samples, std::uint32_t count,
+                                       bool diffuseOnly = false, Profiler* profiler = nullptr);
 
 /// Linear values to 8-bit sRGB through the tone map: `linear` is the address of vec3[count], `display` of
 /// std::uint32_t[count], red in the lowest byte, alpha 255. Ordered by the caller as above. Errors: outOfMemory.
-Result<void> recordToneMap(VkCommandBuffer commands, const Device& device, VkDeviceAddress linear,
-                           VkDeviceAddress display, std::uint32_t count, const ToneMap& toneMap,
-                           Profiler* profiler = nullptr);
+PROBEGI_API Result<void> recordToneMap(VkCommandBuffer commands, const Device& device, VkDeviceAddress linear,
+                                       VkDeviceAddress display, std::uint32_t count, const ToneMap& toneMap,
+                                       Profiler* profiler = nullptr);
 
 /// Triangles traced on the GPU: closestHits(), occluded() and surfaces() upload, dispatch and wait, so they want large
-/// batches; a Field of the same device traces without leaving the GPU. After a lost device every ray misses, and the
-/// next call that returns a Result fails. The scene must be valid and outlive the tracer.
-/// Errors: outOfMemory, unsupported.
-Result<std::unique_ptr<Tracer>> makeTracer(const Context& context, const Device& device, const Scene& scene,
-                                           const ScenePose& pose, const GpuSceneDesc& desc = {});
+/// batches; a Field of the same device traces without leaving the GPU. They fail with deviceLost or outOfMemory. The
+/// scene must be valid and outlive the tracer. Errors: outOfMemory, unsupported.
+PROBEGI_API Result<std::unique_ptr<Tracer>> makeTracer(const Context& context, const Device& device, const Scene& scene,
+                                                       const ScenePose& pose, const GpuSceneDesc& desc = {});
 
 /// A Field whose passes run on the GPU. Its update() accepts any Tracer: with one of makeTracer() on the same device
 /// everything stays on the GPU, with another the rays are traced and shaded by the CPU and uploaded.
 /// Errors: as ProbeVolume::create.
-Result<Field> makeField(const Context& context, const Device& device, const FieldDesc& desc);
+PROBEGI_API Result<Field> makeField(const Context& context, const Device& device, const FieldDesc& desc);
 
 /// GPU time of each pass of the field's last update and of its last batch of queries. Empty for a field of another
 /// backend, or where the device has no timestamps.
-std::vector<PassTime> lastPassTimes(const Field& field);
+PROBEGI_API std::vector<PassTime> lastPassTimes(const Field& field);
 
 /// As probegi::renderPicture, on the GPU: primary rays, direct light with shadow rays, query, resolve. `tracer` must be
 /// one of makeTracer() and `field` (may be null) one of makeField(), both on this device.
 /// Errors: invalidArgument (size; tracer or field of another backend), outOfMemory, deviceLost, cancelled.
-Result<RenderedPicture> renderPicture(const Context& context, const Device& device, const Tracer& tracer,
-                                      const Lighting& lighting, const Field* field, const PictureDesc& desc);
+PROBEGI_API Result<RenderedPicture> renderPicture(const Context& context, const Device& device, const Tracer& tracer,
+                                                  const Lighting& lighting, const Field* field,
+                                                  const PictureDesc& desc);
 
 /// 8-bit sRGB through the tone map, four bytes a pixel, on the GPU. Errors: outOfMemory, deviceLost.
-Result<std::vector<std::uint8_t>> toneMapImage(const Device& device, const HdrImage& image, const ToneMap& toneMap);
+PROBEGI_API Result<std::vector<std::uint8_t>> toneMapImage(const Device& device, const HdrImage& image,
+                                                           const ToneMap& toneMap);
 
 }  // namespace probegi::vulkan

@@ -38,8 +38,11 @@ struct BinaryTree {
     std::vector<std::uint32_t> order;  ///< ids
 };
 
-/// By the surface area heuristic (Embree's builder). Items must not be none. Errors: outOfMemory, invalidArgument.
+/// By the surface area heuristic (Embree's builder); balanced where ProbeGI was built without Embree. Items must not be
+/// none. Errors: outOfMemory, invalidArgument.
 Result<BinaryTree> buildBinaryTree(const Context& context, std::span<const BuildItem> items);
+/// Whether buildBinaryTree() has a heuristic.
+bool treesFollowAHeuristic() noexcept;
 
 /// Halves the items at each level: as flat as a tree can be, for input that drives the heuristic into the depth.
 BinaryTree buildBalancedTree(std::span<const BuildItem> items);

@@ -1,7 +1,5 @@
 #include "bvh/wide_bvh.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <cstring>
 #include <glm/mat3x3.hpp>
@@ -9,6 +7,7 @@
 #include <new>
 
 #include "bvh/quantise.h"
+#include "core/sentence.h"
 
 namespace probegi {
 
@@ -75,12 +74,12 @@ constexpr CollapseCosts kInstanceCosts{.leafItem = 1.5f, .maxLeafSize = 1};
 Result<WideTree> buildWideTree(const Context& context, std::span<const BuildItem> items, const CollapseCosts& costs,
                                int maxLevels) {
     const Result<BinaryTree> binary = buildBinaryTree(context, items);
-    if (!binary) return tl::unexpected(binary.error());
+    if (!binary) return binary.error();
     WideTree wide = collapse(*binary, costs);
     if (wide.levels > maxLevels) wide = collapseByLevels(buildBalancedTree(items), costs.maxLeafSize);
     if (wide.levels > maxLevels)
         return fail(ErrorCode::invalidArgument,
-                    fmt::format("{} triangles or instances are too many for the BVH; use fewer", items.size()));
+                    sentence(items.size(), " triangles or instances are too many for the BVH; use fewer"));
     return wide;
 }
 
@@ -105,7 +104,7 @@ Result<TriangleBvh> buildTriangleBvh(const Context& context, const TriangleSoup&
     TriangleBvh bvh;
     if (items.empty()) return bvh;
     const Result<WideTree> tree = buildWideTree(context, items, kTriangleCosts, kernels::kBvhTriangleLevels);
-    if (!tree) return tl::unexpected(tree.error());
+    if (!tree) return tree.error();
     bvh.levels = tree->levels;
     bvh.nodes = makeNodes(*tree);
     bvh.triangles.reserve(tree->order.size());
@@ -125,7 +124,7 @@ Result<InstanceBvh> buildInstanceBvh(const Context& context, std::span<const Bou
     InstanceBvh bvh;
     if (items.empty()) return bvh;
     Result<WideTree> tree = buildWideTree(context, items, kInstanceCosts, kernels::kBvhInstanceLevels);
-    if (!tree) return tl::unexpected(tree.error());
+    if (!tree) return tree.error();
     bvh.levels = tree->levels;
     bvh.nodes = makeNodes(*tree);
     bvh.order = std::move(tree->order);

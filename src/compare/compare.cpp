@@ -1,12 +1,11 @@
 #include "probegi/compare.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <new>
 
 #include "compare/flip.h"
 #include "compare/light_ratio.h"
+#include "core/sentence.h"
 
 namespace probegi {
 
@@ -14,15 +13,14 @@ namespace {
 
 Result<void> check(const HdrImage& image, const char* which) {
     if (image.width < 1 || image.height < 1 || image.pixels.size() != std::size_t(image.width) * image.height)
-        return fail(ErrorCode::invalidArgument, fmt::format("The {} picture is empty: give one with pixels.", which));
+        return fail(ErrorCode::invalidArgument, sentence("The ", which, " picture is empty: give one with pixels."));
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         const glm::vec3 v = image.pixels[i];
         if (std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z)) continue;
         return fail(
             ErrorCode::invalidArgument,
-            fmt::format("The {} picture has a value that is not finite at pixel ({}, {}): it cannot be compared; "
-                        "render it again.",
-                        which, i % std::size_t(image.width), i / std::size_t(image.width)));
+            sentence("The ", which, " picture has a value that is not finite at pixel (", i % std::size_t(image.width),
+                     ", ", i / std::size_t(image.width), "): it cannot be compared; render it again."));
     }
     return {};
 }
@@ -89,20 +87,20 @@ Comparison compareChecked(const HdrImage& test, const HdrImage& reference, const
 }  // namespace
 
 Result<Comparison> compareImages(const HdrImage& test, const HdrImage& reference, const ToneMap& toneMap) {
-    if (auto ok = check(test, "test"); !ok) return tl::unexpected(ok.error());
-    if (auto ok = check(reference, "reference"); !ok) return tl::unexpected(ok.error());
+    if (auto ok = check(test, "test"); !ok) return ok.error();
+    if (auto ok = check(reference, "reference"); !ok) return ok.error();
     if (test.width != reference.width || test.height != reference.height)
         return fail(ErrorCode::invalidArgument,
-                    fmt::format("The pictures differ in size ({}x{} and {}x{}): render both at the same --size.",
-                                test.width, test.height, reference.width, reference.height));
+                    sentence("The pictures differ in size (", test.width, "x", test.height, " and ", reference.width,
+                             "x", reference.height, "): render both at the same --size."));
     if (!(toneMap.exposure > 0) || !std::isfinite(toneMap.exposure))
         return fail(ErrorCode::invalidArgument,
-                    fmt::format("The exposure is {}: give a number above 0.", toneMap.exposure));
+                    sentence("The exposure is ", toneMap.exposure, ": give a number above 0."));
     try {
         return compareChecked(test, reference, toneMap);
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::outOfMemory,
-                    fmt::format("Not enough memory to compare pictures of {}x{} pixels.", test.width, test.height));
+                    sentence("Not enough memory to compare pictures of ", test.width, "x", test.height, " pixels."));
     }
 }
 

@@ -1,13 +1,19 @@
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <cstddef>
 
 #include "core/context_impl.h"
+#include "core/first_error.h"
 #include "core/float_mode.h"
 
 namespace probegi {
+
+/// Calls task(i) for every i of 0..count on the context's threads or the engine's jobs. What a task throws is thrown
+/// here.
+void runTasks(const Context& context, std::size_t count, const std::function<void(std::size_t)>& task);
+
+/// Calls body where loops of Embree's keep to the context's threads, where these are the library's own.
+void runInside(const Context& context, const std::function<void()>& body);
 
 /// Calls body(begin, end) on disjoint ranges that cover 0..count, on the context's threads. Ranges are multiples of
 /// `grain` (but for the last), so what a body computes per range does not depend on the number of threads. Denormal
@@ -15,19 +21,21 @@ namespace probegi {
 template <class Body>
 void parallelFor(const Context& context, std::size_t count, std::size_t grain, const Body& body) {
     const std::size_t chunks = (count + grain - 1) / grain;
-    const auto run = [&](std::size_t chunk) {
+    runTasks(context, chunks, [&](std::size_t chunk) {
         const FloatMode floatMode;
         body(chunk * grain, chunk + 1 == chunks ? count : (chunk + 1) * grain);
-    };
-    if (context.threads() == 1 || chunks <= 1) {
-        for (std::size_t chunk = 0; chunk < chunks; ++chunk) run(chunk);
-        return;
-    }
-    context.impl().arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chunks, 1), [&](const auto& range) {
-            for (std::size_t chunk = range.begin(); chunk < range.end(); ++chunk) run(chunk);
-        });
     });
+}
+
+/// The same for a body that returns a Result<void>. What failed first is returned, and ranges that have not begun by
+/// then are left out.
+template <class Body>
+Result<void> tryParallelFor(const Context& context, std::size_t count, std::size_t grain, const Body& body) {
+    FirstError error;
+    parallelFor(context, count, grain, [&](std::size_t begin, std::size_t end) {
+        if (!error.happened()) error.passes(body(begin, end));
+    });
+    return error.result();
 }
 
 }  // namespace probegi

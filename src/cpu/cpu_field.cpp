@@ -23,11 +23,11 @@ double millisecondsSince(Clock::time_point start) {
 }  // namespace
 
 Result<Field> Field::create(const Context& context, const FieldDesc& desc) {
-    if (auto ok = validateFieldDesc(desc); !ok) return tl::unexpected(ok.error());
+    if (auto ok = validateFieldDesc(desc); !ok) return ok.error();
     try {
         return makeFieldOn(context, desc, std::make_unique<CpuField>(context, desc));
     } catch (const std::bad_alloc&) {
-        return tl::unexpected(probesDoNotFit(desc));
+        return probesDoNotFit(desc);
     }
 }
 
@@ -85,12 +85,14 @@ Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, const Tracer& tra
     if (frame.bounces)
         bounces = [&](std::span<const FieldQuery> queries, std::span<glm::vec3> out) {
             queryIrradiance(last, queries, out);
+            return Result<void>();
         };
     const EmitterSearch emitters = emitterSearch(frame.desc, tracer, frame.raySeed);
-    traceProbes(m_context, frame.desc.grid, {frame.directions, frame.fixedDirections}, tracer, lighting, bounces,
-                emitters, {m_rayData, m_fixedRays}, sums);
     m_emitterLights.resize(m_layout.probes * std::size_t(emitters.looks));
-    if (emitters) lookAtEmitters(m_context, frame.desc.grid, emitters, tracer, m_emitterLights, sums);
+    auto done = traceProbes(m_context, frame.desc.grid, {frame.directions, frame.fixedDirections}, tracer, lighting,
+                            bounces, emitters, {m_rayData, m_fixedRays}, sums);
+    if (done && emitters) done = lookAtEmitters(m_context, frame.desc.grid, emitters, tracer, m_emitterLights, sums);
+    if (!done) return done.error();
     const double traced = millisecondsSince(start);
     blend(frame, m_rayData, m_fixedRays, m_emitterLights);
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <memory>
+
+#include "core/embree.h"
 
 namespace probegi {
 

@@ -97,12 +97,12 @@ void store(const RTCRayHit16& packet, std::span<Hit> hits) {
     }
 }
 
-Hit closestHit(RTCScene scene, RTCIntersectContext* context, const Ray& ray) {
+Hit closestHit(RTCScene scene, EmbreeCalls& calls, const Ray& ray) {
     if (!usable(ray)) return miss();
     RTCRayHit query;
     query.ray = single(ray);
     query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene, context, &query);
+    calls.intersect1(scene, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return miss();
     return {query.ray.tfar,
             std::int32_t(query.hit.primID),
@@ -111,26 +111,22 @@ Hit closestHit(RTCScene scene, RTCIntersectContext* context, const Ray& ray) {
             {query.hit.u, query.hit.v}};
 }
 
-bool occludedOne(RTCScene scene, RTCIntersectContext* context, const Ray& ray) {
+bool occludedOne(RTCScene scene, EmbreeCalls& calls, const Ray& ray) {
     if (!usable(ray)) return false;
     RTCRay query = single(ray);
-    rtcOccluded1(scene, context, &query);
+    calls.occluded1(scene, query);
     return query.tfar < 0.0f;  // Embree's mark of a blocked ray: minus infinity
 }
 
 }  // namespace
 
 EmbreePackets::EmbreePackets(RTCScene scene, float originSpread, bool instanced)
-    : m_scene(scene), m_originSpread(originSpread), m_instanced(instanced) {
-    rtcInitIntersectContext(&m_incoherent);
-    rtcInitIntersectContext(&m_coherent);
-    m_coherent.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-}
+    : m_scene(scene), m_originSpread(originSpread), m_instanced(instanced) {}
 
 void EmbreePackets::closestHits(std::span<const Ray> rays, std::span<Hit> hits) {
     const FloatMode floatMode;
     if (rays.size() == 1) {
-        hits[0] = closestHit(m_scene, &m_incoherent, rays[0]);
+        hits[0] = closestHit(m_scene, m_incoherent, rays[0]);
         return;
     }
     alignas(64) RTCRayHit16 packet;
@@ -143,7 +139,7 @@ void EmbreePackets::closestHits(std::span<const Ray> rays, std::span<Hit> hits) 
         std::fill_n(packet.hit.geomID, kWidth, RTC_INVALID_GEOMETRY_ID);
         std::fill_n(packet.hit.instID[0], kWidth, RTC_INVALID_GEOMETRY_ID);
         const bool together = coherent(packet.ray, m_originSpread);
-        rtcIntersect16(valid, m_scene, together ? &m_coherent : &m_incoherent, &packet);
+        (together ? m_coherent : m_incoherent).intersect16(valid, m_scene, packet);
         store(packet, hits.subspan(i, count));
     }
 }
@@ -151,7 +147,7 @@ void EmbreePackets::closestHits(std::span<const Ray> rays, std::span<Hit> hits) 
 void EmbreePackets::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
     const FloatMode floatMode;
     if (rays.size() == 1) {
-        blocked[0] = occludedOne(m_scene, &m_incoherent, rays[0]);
+        blocked[0] = occludedOne(m_scene, m_incoherent, rays[0]);
         return;
     }
     alignas(64) RTCRay16 packet;
@@ -162,7 +158,7 @@ void EmbreePackets::occluded(std::span<const Ray> rays, std::span<std::uint8_t> 
         load(packet, batch);
         findUsable(packet, count, valid);
         const bool together = !m_instanced && coherent(packet, m_originSpread);
-        rtcOccluded16(valid, m_scene, together ? &m_coherent : &m_incoherent, &packet);
+        (together ? m_coherent : m_incoherent).occluded16(valid, m_scene, packet);
         for (std::size_t k = 0; k < count; ++k) blocked[i + k] = valid[k] != 0 && packet.tfar[k] < 0.0f;
     }
 }

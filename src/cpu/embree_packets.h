@@ -26,8 +26,8 @@ private:
     RTCScene m_scene;
     float m_originSpread;
     bool m_instanced;
-    RTCIntersectContext m_incoherent;
-    RTCIntersectContext m_coherent;
+    EmbreeCalls m_incoherent{false};
+    EmbreeCalls m_coherent{true};
 };
 
 }  // namespace probegi

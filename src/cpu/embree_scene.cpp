@@ -1,10 +1,9 @@
 #include "cpu/embree_scene.h"
 
-#include <fmt/format.h>
-
 #include <new>
 
-#include "core/context_impl.h"
+#include "core/parallel.h"
+#include "core/sentence.h"
 #include "cpu/embree_filter.h"
 
 namespace probegi {
@@ -89,8 +88,8 @@ Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(const Context& context,
                     "Embree could not make a device; is this processor supported?");
     rtcSetDeviceMemoryMonitorFunction(result->m_device.get(), countBytes, &result->m_allocated);
     // Within the arena Embree's tasks keep to the context's threads; its own "threads" option would cap all of TBB.
-    context.impl().arena.execute([&] { result->build(bool(movable)); });
-    if (auto checked = result->check(); !checked) return tl::unexpected(checked.error());
+    runInside(context, [&] { result->build(bool(movable)); });
+    if (auto checked = result->check(); !checked) return checked.error();
     return result;
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, "not enough memory for the scene's triangles; use fewer triangles");
@@ -99,21 +98,20 @@ Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(const Context& context,
 Result<void> EmbreeScene::check() {
     const RTCError error = rtcGetDeviceError(m_device.get());
     if (error == RTC_ERROR_NONE) return {};
-    return fail(errorCode(error), fmt::format("Embree could not build the scene (its error code {}); use fewer "
-                                              "triangles or free memory",
-                                              int(error)));
+    return fail(errorCode(error), sentence("Embree could not build the scene (its error code ", int(error),
+                                           "); use fewer triangles or free memory"));
 }
 
 Result<void> EmbreeScene::place(const ScenePose& pose) {
     auto placements = movedPlacements(m_geometry.placements, pose);
-    if (!placements) return tl::unexpected(placements.error());
+    if (!placements) return placements.error();
     m_geometry.placements = std::move(*placements);
     for (std::size_t i = 0; i < m_geometry.placements.size(); ++i) {
         const RTCGeometry instance = rtcGetGeometry(m_top.get(), kFirstInstance + unsigned(i));
         rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &m_geometry.placements[i].toWorld[0][0]);
         rtcCommitGeometry(instance);
     }
-    m_context.impl().arena.execute([&] { commitTop(); });
+    runInside(m_context, [&] { commitTop(); });
     return check();
 }
 

@@ -27,24 +27,27 @@ public:
         measure();
     }
 
-    void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override {
+    Result<void> closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override {
         assert(rays.size() == hits.size());
         packets().closestHits(rays, hits);
+        return {};
     }
 
-    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override {
+    Result<void> occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override {
         assert(rays.size() == blocked.size());
         packets().occluded(rays, blocked);
+        return {};
     }
 
-    void surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const override {
+    Result<void> surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const override {
         assert(rays.size() == hits.size() && rays.size() == out.size());
         for (std::size_t i = 0; i < rays.size(); ++i)
             if (hits[i].valid()) out[i] = surface(rays[i], hits[i], m_scene->geometry().materials, 0);
+        return {};
     }
 
-    void filteredSurfaces(std::span<const Ray> rays, std::span<const Hit> hits, float spread,
-                          std::span<Surface> out) const override {
+    Result<void> filteredSurfaces(std::span<const Ray> rays, std::span<const Hit> hits, float spread,
+                                  std::span<Surface> out) const override {
         assert(rays.size() == hits.size() && rays.size() == out.size());
         // Whoever draws no pictures needs no mip levels. The first call makes them, even one without rays.
         std::call_once(m_filteredOnce, [&] {
@@ -53,6 +56,7 @@ public:
         });
         for (std::size_t i = 0; i < rays.size(); ++i)
             if (hits[i].valid()) out[i] = surface(rays[i], hits[i], m_filtered, spread);
+        return {};
     }
 
     Result<void> setPose(const ScenePose& pose) override {
@@ -94,7 +98,7 @@ private:
 
 Result<std::unique_ptr<MovableTracer>> make(const Context& context, const Scene& scene, const ScenePose& pose,
                                             const InstancePredicate& movable) {
-    return EmbreeScene::create(context, scene, pose, movable).map([&](std::unique_ptr<EmbreeScene> made) {
+    return EmbreeScene::create(context, scene, pose, movable).transform([&](std::unique_ptr<EmbreeScene> made) {
         return std::unique_ptr<MovableTracer>(
             std::make_unique<EmbreeTracer>(context, scene, std::move(made), EmitterGeometry(scene, pose)));
     });
@@ -103,15 +107,14 @@ Result<std::unique_ptr<MovableTracer>> make(const Context& context, const Scene&
 }  // namespace
 
 Result<std::unique_ptr<Tracer>> makeEmbreeTracer(const Context& context, const Scene& scene, const ScenePose& pose) {
-    return make(context, scene, pose, {}).map([](std::unique_ptr<MovableTracer> made) {
+    return make(context, scene, pose, {}).transform([](std::unique_ptr<MovableTracer> made) {
         return std::unique_ptr<Tracer>(std::move(made));
     });
 }
 
 Result<std::unique_ptr<MovableTracer>> makeMovableEmbreeTracer(const Context& context, const Scene& scene,
                                                                const ScenePose& pose, const MovableDesc& desc) {
-    if (auto checked = checkNodes(scene, desc.nodes, "MovableDesc::nodes"); !checked)
-        return tl::unexpected(checked.error());
+    if (auto checked = checkNodes(scene, desc.nodes, "MovableDesc::nodes"); !checked) return checked.error();
     return make(context, scene, pose, movableInstances(scene, desc.animated, desc.nodes));
 }
 

@@ -51,6 +51,7 @@ glm::vec3 queryNeighbours(const FieldView& view, FieldQuery query) {
     const GridDesc& grid = view.desc->grid;
     const float biasScale = view.desc->selfShadowBias;
     constexpr int rules = kernels::kRulesMeasured;
+    query.toViewer = kernels::viewerOf(query.toViewer, query.normal);
     query.position = kernels::clampToGrid(query.position, grid.origin, grid.spacing, grid.counts);
     const glm::vec3 bias = kernels::visibilityBias(query.normal, query.toViewer, view.minSpacing, biasScale, rules);
     const glm::vec3 local = kernels::gridCoordinates(

@@ -126,7 +126,7 @@ template <int rules, class Guard>
 HWY_INLINE Cages weighProbes(const FieldView& view, const Guard& guard, const Real3& normal, Block& block) {
     const GridDesc& grid = view.desc->grid;
     const float biasScale = view.desc->selfShadowBias;
-    const Real3 toViewer = load(block.toViewer);
+    const Real3 toViewer = lanes::viewerOf(load(block.toViewer), normal);
     const Real3 position = lanes::clampToGrid(load(block.position), grid.origin, grid.spacing, grid.counts);
     const Real3 bias = lanes::visibilityBias(normal, toViewer, view.minSpacing, biasScale, rules);
     // The cage and the trilinear weights belong to a point a little off the surface: on a wall that runs through a

@@ -1,12 +1,10 @@
 #include "probegi/field.h"
 
-#include <fmt/format.h>
-
-#include <cassert>
 #include <cmath>
 #include <new>
 
 #include "core/progress.h"
+#include "core/sentence.h"
 #include "field/convergence.h"
 #include "field/field_backend.h"
 
@@ -34,7 +32,7 @@ struct Field::Impl {
             return {};
         }
         const auto brightness = backend->brightness();
-        if (!brightness) return tl::unexpected(brightness.error());
+        if (!brightness) return brightness.error();
         std::vector<float> backfaceShares(brightness->size());
         for (std::size_t probe = 0; probe < backfaceShares.size(); ++probe)
             backfaceShares[probe] = backend->probeBackfaceShare(int(probe));
@@ -60,7 +58,7 @@ const FieldBackend& backendOf(const Field& field) noexcept {
 
 Error probesDoNotFit(const FieldDesc& desc) {
     return {ErrorCode::outOfMemory,
-            fmt::format("no memory for {} probes; use fewer or smaller ones", probeCount(desc.grid))};
+            sentence("no memory for ", probeCount(desc.grid), " probes; use fewer or smaller ones")};
 }
 
 Field::Field(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
@@ -101,15 +99,15 @@ Result<UpdateTimes> Field::update(std::span<const RayDatum> rayData, std::span<c
     const std::size_t probes = std::size_t(probeCount(desc.grid));
     const std::size_t expected = probes * std::size_t(desc.raysPerProbe);
     if (rayData.size() != expected)
-        return fail(
-            ErrorCode::invalidArgument,
-            fmt::format("rayData has {} entries; it must have probes x raysPerProbe = {}", rayData.size(), expected));
+        return fail(ErrorCode::invalidArgument, sentence("rayData has ", rayData.size(),
+                                                         " entries; it must have probes x raysPerProbe = ", expected));
     const std::size_t expectedFixed = probes * m_impl->books.fixedRayDirections().size();
     if (!fixedRays.empty() && fixedRays.size() != expectedFixed)
-        return fail(ErrorCode::invalidArgument,
-                    fmt::format("fixedRays has {} entries; it must be empty or have an entry for each probe and each "
-                                "of fixedRayDirections(), {}",
-                                fixedRays.size(), expectedFixed));
+        return fail(
+            ErrorCode::invalidArgument,
+            sentence("fixedRays has ", fixedRays.size(),
+                     " entries; it must be empty or have an entry for each probe and each of fixedRayDirections(), ",
+                     expectedFixed));
     const UpdateFrame frame =
         fixedRays.empty() ? m_impl->books.comingUpdateWithoutFixedRays() : m_impl->books.comingUpdate();
     return m_impl->ended(m_impl->backend->update(frame, rayData, fixedRays));
@@ -132,10 +130,10 @@ Result<ConvergeResult> Field::converge(const Tracer& tracer, const Lighting& lig
     Convergence convergence(m.books.desc(), tolerance, maxFrames);
     while (convergence.updates() < maxFrames && !convergence.converged()) {
         const auto times = m.backend->update(m.books.comingAverage(convergence.kept()), tracer, lighting);
-        if (!times) return tl::unexpected(times.error());
+        if (!times) return times.error();
         const auto observed = m.observe(convergence);
         m.books.advance(convergence.turnsRays());
-        if (!observed) return tl::unexpected(observed.error());
+        if (!observed) return observed.error();
         if (onUpdate) onUpdate(*times);
         if (!progress.advance()) return fail(ErrorCode::cancelled, "cancelled while converging probes");
     }
@@ -149,7 +147,9 @@ glm::vec3 Field::irradiance(const FieldQuery& query) const noexcept {
 }
 
 Result<void> Field::irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> out) const try {
-    assert(queries.size() == out.size());
+    if (queries.size() != out.size())
+        return fail(ErrorCode::invalidArgument, sentence("there are ", queries.size(), " queries and room for ",
+                                                         out.size(), " answers; both spans must be equally long"));
     return m_impl->backend->irradiance(m_impl->books.desc(), queries, out);
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, "no memory for this many queries; ask for fewer at a time");

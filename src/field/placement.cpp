@@ -1,9 +1,8 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "core/sentence.h"
 #include "probegi/field.h"
 
 namespace probegi {
@@ -42,8 +41,7 @@ Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc) {
     if (!std::isfinite(largest) || !(largest > 0))
         return fail(ErrorCode::invalidArgument, "the scene has no extent to place probes in; give a volume");
     if (!(desc.marginCells >= 0) || desc.marginCells > 100)
-        return fail(ErrorCode::invalidArgument,
-                    fmt::format("marginCells is {}; it must be 0 to 100", desc.marginCells));
+        return fail(ErrorCode::invalidArgument, sentence("marginCells is ", desc.marginCells, "; it must be 0 to 100"));
 
     // A flat axis still gets a cell, and a little room so that the scene never lies on the grid's very face.
     const glm::vec3 padded = glm::max(size, glm::vec3(largest * 1e-3f));
@@ -51,7 +49,7 @@ Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc) {
     if (desc.counts == glm::ivec3(0)) {
         if (desc.targetProbes < 8 || desc.targetProbes > 1 << 24)
             return fail(ErrorCode::invalidArgument,
-                        fmt::format("targetProbes is {}; it must be 8 to {}", desc.targetProbes, 1 << 24));
+                        sentence("targetProbes is ", desc.targetProbes, "; it must be 8 to ", 1 << 24));
         const float spacing = cubicSpacing(padded, desc.targetProbes, desc.marginCells);
         grid.counts = countsFor(padded, spacing, desc.marginCells);
         grid.spacing = glm::vec3(spacing);
@@ -59,7 +57,7 @@ Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc) {
         for (int axis = 0; axis < 3; ++axis) {
             if (desc.counts[axis] < 2 || desc.counts[axis] > 1024)
                 return fail(ErrorCode::invalidArgument,
-                            fmt::format("counts has {}; each axis must have 2 to 1024 probes", desc.counts[axis]));
+                            sentence("counts has ", desc.counts[axis], "; each axis must have 2 to 1024 probes"));
             const float inner = float(desc.counts[axis] - 1) - 2.0f * (desc.marginCells + kOffWall);
             // Too few probes for a margin on both sides: the scene then fills the middle half of the grid.
             grid.spacing[axis] = padded[axis] / std::max(inner, 0.5f * float(desc.counts[axis] - 1));

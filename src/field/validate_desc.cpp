@@ -1,7 +1,6 @@
-#include <fmt/format.h>
-
 #include <cmath>
 
+#include "core/sentence.h"
 #include "field/layout.h"
 
 namespace probegi {
@@ -10,12 +9,12 @@ namespace {
 
 Result<void> checkRange(const char* name, double value, double lowest, double highest) {
     if (value >= lowest && value <= highest) return {};
-    return fail(ErrorCode::invalidArgument, fmt::format("{} is {}; it must be {} to {}", name, value, lowest, highest));
+    return fail(ErrorCode::invalidArgument, sentence(name, " is ", value, "; it must be ", lowest, " to ", highest));
 }
 
 Result<void> checkMapSize(const char* name, int size, int highest) {
     if (size % 2 == 0) return checkRange(name, size, 4, highest);
-    return fail(ErrorCode::invalidArgument, fmt::format("{} is {}; it must be even", name, size));
+    return fail(ErrorCode::invalidArgument, sentence(name, " is ", size, "; it must be even"));
 }
 
 Result<void> checkGrid(const GridDesc& grid) {

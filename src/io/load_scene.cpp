@@ -36,7 +36,7 @@ Result<LoadedScene> loadScene(const std::filesystem::path& path) {
     });
     if (!loaded) return loaded;
     const auto ignored = addSettings(path, loaded->scene);
-    if (!ignored) return tl::unexpected(ignored.error());
+    if (!ignored) return ignored.error();
     loaded->warnings.insert(loaded->warnings.end(), ignored->begin(), ignored->end());
     if (loaded->scene.name.empty()) loaded->scene.name = path.stem().string();
     const auto valid = validate(loaded->scene);

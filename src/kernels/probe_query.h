@@ -32,6 +32,13 @@ KERNEL_CONST float kCrushBelow = 0.2f;
 KERNEL_CONST float kInsideShare = 0.25f;
 KERNEL_CONST float kInsideShareEdge = 0.05f;
 
+// omega_o of a query: a `toViewer` of zero stands for the normal, where nobody looks.
+KERNEL_FN Real3 viewerOf(Real3 toViewer, Real3 normal) {
+    const Real square = toViewer.x * toViewer.x + toViewer.y * toViewer.y + toViewer.z * toViewer.z;
+    return Real3(select(square > 0.0f, toViewer.x, normal.x), select(square > 0.0f, toViewer.y, normal.y),
+                 select(square > 0.0f, toViewer.z, normal.z));
+}
+
 // Eq. 2: the offset from a surface point to where visibility is tested. `toViewer` is omega_o.
 KERNEL_FN Real3 selfShadowBias(Real3 normal, Real3 toViewer, float minSpacing, float tunableBias) {
     return (normal * 0.2f + toViewer * 0.8f) * (0.75f * minSpacing * tunableBias);

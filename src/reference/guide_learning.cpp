@@ -182,7 +182,7 @@ Result<PathGuide> learnGuide(const Context& context, const Transport& transport,
     const GridDesc& grid = field.desc().grid;
     PathGuide guide(grid);
     const auto lessons = takeLessons(context, transport, field, guide, std::move(first), seed);
-    if (!lessons) return tl::unexpected(lessons.error());
+    if (!lessons) return lessons.error();
     const Boxes boxes = gather(*lessons, std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z}));
     const std::vector<Class> regions = classes(*lessons);
     std::vector<RegionBoxes> found(regions.size());

@@ -34,8 +34,8 @@ GuideReceiver receiverAt(const Surface& surface) {
     return {surface.position, surface.geometricNormal, surface.shadingNormal, 0};
 }
 
-std::vector<GuideReceiver> nextGeneration(const Transport& transport, std::span<const GuideReceiver> last,
-                                          std::uint64_t seed) {
+Result<std::vector<GuideReceiver>> nextGeneration(const Transport& transport, std::span<const GuideReceiver> last,
+                                                  std::uint64_t seed) {
     std::vector<Ray> rays;
     rays.reserve(last.size());
     for (std::size_t i = 0; i < last.size(); ++i)
@@ -91,7 +91,7 @@ float reflected(const Surface& surface, glm::vec3 irradiance) {
     return std::isfinite(radiance) ? std::max(radiance, 0.0f) : 0.0f;
 }
 
-void addPunctual(const Transport& transport, std::size_t begin, std::size_t end, Views& views) {
+Result<void> addPunctual(const Transport& transport, std::size_t begin, std::size_t end, Views& views) {
     std::vector<Ray> shadows;
     std::vector<std::pair<std::size_t, float>> arriving;
     for (std::size_t i = begin; i < end; ++i) {
@@ -109,15 +109,16 @@ void addPunctual(const Transport& transport, std::size_t begin, std::size_t end,
         }
     }
     std::vector<std::uint8_t> blocked(shadows.size());
-    transport.tracer->occluded(shadows, blocked);
+    if (auto traced = transport.tracer->occluded(shadows, blocked); !traced) return traced;
     for (std::size_t i = 0; i < shadows.size(); ++i)
         if (!blocked[i]) views.punctual[arriving[i].first] += arriving[i].second;
+    return {};
 }
 
 /// Traces the rays of `receivers`, which are numbered from `first`, and lights what they hit but for the field's share.
-void look(const Context& context, const Transport& transport, std::span<const GuideReceiver> receivers,
-          std::size_t first, std::uint64_t seed, Views& views) {
-    parallelFor(context, receivers.size(), kGrain, [&](std::size_t from, std::size_t to) {
+Result<void> look(const Context& context, const Transport& transport, std::span<const GuideReceiver> receivers,
+                  std::size_t first, std::uint64_t seed, Views& views) {
+    return tryParallelFor(context, receivers.size(), kGrain, [&](std::size_t from, std::size_t to) -> Result<void> {
         const std::size_t begin = from * kRays, end = to * kRays;
         for (std::size_t r = from; r < to; ++r) {
             Random random(seed, first + r);
@@ -128,14 +129,17 @@ void look(const Context& context, const Transport& transport, std::span<const Gu
         }
         const auto part = [&](auto& all) { return std::span(all).subspan(begin, end - begin); };
         std::fill(part(views.hits).begin(), part(views.hits).end(), Hit{});
-        transport.tracer->closestHits(part(views.rays), part(views.hits));
-        transport.tracer->surfaces(part(views.rays), part(views.hits), part(views.surfaces));
-        addPunctual(transport, begin, end, views);
+        const Tracer& tracer = *transport.tracer;
+        if (auto hit = tracer.closestHits(part(views.rays), part(views.hits)); !hit) return hit;
+        auto found = tracer.surfaces(part(views.rays), part(views.hits), part(views.surfaces));
+        if (!found) return found;
+        if (auto lit = addPunctual(transport, begin, end, views); !lit) return lit;
         for (std::size_t i = begin; i < end; ++i)
             views.queries[i] =
                 views.hits[i].valid()
                     ? FieldQuery{views.surfaces[i].position, views.surfaces[i].shadingNormal, -views.rays[i].direction}
                     : FieldQuery{views.rays[i].origin, -views.rays[i].direction, -views.rays[i].direction};
+        return {};
     });
 }
 
@@ -199,11 +203,11 @@ void learn(const Transport& transport, const Views& views, std::size_t offset, s
 
 }  // namespace
 
-std::vector<GuideReceiver> receiversSeen(const Transport& transport, std::span<const Ray> rays) {
+Result<std::vector<GuideReceiver>> receiversSeen(const Transport& transport, std::span<const Ray> rays) {
     std::vector<Hit> hits(rays.size());
     std::vector<Surface> surfaces(rays.size());
-    transport.tracer->closestHits(rays, hits);
-    transport.tracer->surfaces(rays, hits, surfaces);
+    if (auto hit = transport.tracer->closestHits(rays, hits); !hit) return hit.error();
+    if (auto found = transport.tracer->surfaces(rays, hits, surfaces); !found) return found.error();
     std::vector<GuideReceiver> seen;
     for (std::size_t i = 0; i < rays.size(); ++i)
         if (hits[i].valid() && !surfaces[i].backface) seen.push_back(receiverAt(surfaces[i]));
@@ -214,7 +218,9 @@ Result<GuideLessons> takeLessons(const Context& context, const Transport& transp
                                  const PathGuide& guide, std::vector<GuideReceiver> first, std::uint64_t seed) {
     std::vector<GuideReceiver> all = first;
     for (int generation = 1; generation <= kGenerations; ++generation) {
-        first = nextGeneration(transport, first, seed + std::uint64_t(generation));
+        auto next = nextGeneration(transport, first, seed + std::uint64_t(generation));
+        if (!next) return next.error();
+        first = std::move(*next);
         all.insert(all.end(), first.begin(), first.end());
     }
     for (GuideReceiver& receiver : all)
@@ -230,10 +236,11 @@ Result<GuideLessons> takeLessons(const Context& context, const Transport& transp
     Views views(std::min(kBlock, count) * kRays);
     for (std::size_t begin = 0; begin < count; begin += kBlock) {
         const std::size_t size = std::min(kBlock, count - begin);
-        look(context, transport, std::span(lessons.receivers).subspan(begin, size), begin, seed, views);
+        const auto block = std::span(lessons.receivers).subspan(begin, size);
+        if (auto looked = look(context, transport, block, begin, seed, views); !looked) return looked.error();
         const auto answered = field.irradiance(std::span(views.queries).first(size * kRays),
                                                std::span(views.irradiance).first(size * kRays));
-        if (!answered) return tl::unexpected(answered.error());
+        if (!answered) return answered.error();
         std::vector<std::vector<GuideLight>> found((size + kGrain - 1) / kGrain);
         parallelFor(context, size, kGrain, [&](std::size_t from, std::size_t to) {
             for (std::size_t r = from; r < to; ++r)

@@ -38,8 +38,8 @@ struct GuideLessons {
     std::vector<float> backgroundSquares;  ///< per receiver: sum of their squares
 };
 
-/// The points where camera rays meet surfaces.
-std::vector<GuideReceiver> receiversSeen(const Transport& transport, std::span<const Ray> rays);
+/// The points where camera rays meet surfaces. Errors: those of the tracer.
+Result<std::vector<GuideReceiver>> receiversSeen(const Transport& transport, std::span<const Ray> rays);
 
 /// Follows paths from the first receivers on, so that the lessons are where paths will go, and looks around there.
 /// Emissive surfaces count for nothing: light sampling finds them. Errors: those of the field's query.

@@ -20,9 +20,9 @@ struct Part {
 };
 
 /// Paths are numbered point by point; a chunk is a range of them, so it may hold many points or a share of one.
-std::vector<Part> traceChunk(const Transport& transport, const PathSettings& settings,
-                             std::span<const FieldQuery> points, std::size_t samples, std::uint64_t seed,
-                             std::size_t begin, std::size_t end) {
+Result<std::vector<Part>> traceChunk(const Transport& transport, const PathSettings& settings,
+                                     std::span<const FieldQuery> points, std::size_t samples, std::uint64_t seed,
+                                     std::size_t begin, std::size_t end) {
     std::vector<FieldQuery> starts;
     std::vector<Random> random;
     for (std::size_t path = begin; path < end; ++path) {
@@ -30,7 +30,8 @@ std::vector<Part> traceChunk(const Transport& transport, const PathSettings& set
         random.emplace_back(seed, path);
     }
     std::vector<PathResult> results(end - begin);
-    PathBatch(transport, settings).fromPoints(starts, random, results);
+    if (auto traced = PathBatch(transport, settings).fromPoints(starts, random, results); !traced)
+        return traced.error();
 
     std::vector<Part> parts;
     for (std::size_t path = begin; path < end; ++path) {
@@ -51,12 +52,15 @@ Result<std::vector<ReferenceIrradiance>> estimateIrradiance(const Context& conte
     const std::size_t total = points.size() * std::size_t(samples);
     std::vector<std::vector<Part>> chunks((total + kPathsPerChunk - 1) / kPathsPerChunk);
     Progress progress(context, "reference irradiance", double(total));
-    parallelFor(context, total, kPathsPerChunk, [&](std::size_t begin, std::size_t end) {
-        if (progress.cancelled()) return;
-        chunks[begin / kPathsPerChunk] =
-            traceChunk(transport, settings, points, std::size_t(samples), seed, begin, end);
+    const auto trace = [&](std::size_t begin, std::size_t end) -> Result<void> {
+        if (progress.cancelled()) return {};
+        auto chunk = traceChunk(transport, settings, points, std::size_t(samples), seed, begin, end);
+        if (!chunk) return chunk.error();
+        chunks[begin / kPathsPerChunk] = std::move(*chunk);
         progress.advance(double(end - begin));
-    });
+        return {};
+    };
+    if (auto traced = tryParallelFor(context, total, kPathsPerChunk, trace); !traced) return traced.error();
     if (progress.cancelled()) return fail(ErrorCode::cancelled, "The reference irradiance was cancelled.");
 
     // Merged in the order of the paths, whatever thread traced them.

@@ -8,7 +8,8 @@
 
 namespace probegi {
 
-/// PathTracer::irradiance with all switches of the transport. Errors: cancelled.
+/// PathTracer::irradiance with all switches of the transport. Errors: cancelled, and those of the
+/// tracer.
 Result<std::vector<ReferenceIrradiance>> estimateIrradiance(const Context& context, const Transport& transport,
                                                             const PathSettings& settings,
                                                             std::span<const FieldQuery> points, int samples,

@@ -117,24 +117,25 @@ void PathBatch::sampleSky(Path& path, const Vertex& vertex) {
     m_shadowRays.push_back({origin, 0.0f, direction});
 }
 
-void PathBatch::resolveShadows() {
-    if (m_shadows.empty()) return;
+Result<void> PathBatch::resolveShadows() {
+    if (m_shadows.empty()) return {};
     m_blocked.resize(m_shadows.size());
-    m_transport.tracer->occluded(m_shadowRays, m_blocked);
+    if (auto traced = m_transport.tracer->occluded(m_shadowRays, m_blocked); !traced) return traced;
     for (std::size_t i = 0; i < m_shadows.size(); ++i) {
         const Pending& p = m_shadows[i];
         if (!m_blocked[i]) addTo(p.result, p.layer, p.color, p.irradiance);
     }
+    return {};
 }
 
 /// Emitters whose radiance varies (textures, alpha): the ray itself finds out what the sampled point sends, and whether
 /// it is seen at all.
-void PathBatch::resolveLookUps() {
-    if (m_lookUps.empty()) return;
+Result<void> PathBatch::resolveLookUps() {
+    if (m_lookUps.empty()) return {};
     std::vector<Hit> hits(m_lookUps.size());
     std::vector<Surface> surfaces(m_lookUps.size());
-    m_transport.tracer->closestHits(m_lookUpRays, hits);
-    m_transport.tracer->surfaces(m_lookUpRays, hits, surfaces);
+    if (auto hit = m_transport.tracer->closestHits(m_lookUpRays, hits); !hit) return hit;
+    if (auto found = m_transport.tracer->surfaces(m_lookUpRays, hits, surfaces); !found) return found;
     for (std::size_t i = 0; i < m_lookUps.size(); ++i) {
         const Pending& p = m_lookUps[i];
         if (!hits[i].valid() || surfaces[i].material != p.material) continue;
@@ -143,6 +144,7 @@ void PathBatch::resolveLookUps() {
         if (std::abs(hits[i].distance - p.distance) > tolerance) continue;
         addTo(p.result, p.layer, p.color * surfaces[i].emission, p.irradiance * surfaces[i].emission);
     }
+    return {};
 }
 
 }  // namespace probegi

@@ -26,8 +26,8 @@ void PathBatch::begin(std::size_t count) {
     m_rays.reserve(count);
 }
 
-void PathBatch::fromCamera(std::span<const Ray> cameraRays, std::span<const Random> random,
-                           std::span<PathResult> results) {
+Result<void> PathBatch::fromCamera(std::span<const Ray> cameraRays, std::span<const Random> random,
+                                   std::span<PathResult> results) {
     m_results = results;
     m_fromPoints = false;
     begin(cameraRays.size());
@@ -35,11 +35,11 @@ void PathBatch::fromCamera(std::span<const Ray> cameraRays, std::span<const Rand
         m_paths.push_back(Path{.random = random[i], .result = std::uint32_t(i)});
         m_rays.push_back(cameraRays[i]);
     }
-    run();
+    return run();
 }
 
-void PathBatch::fromPoints(std::span<const FieldQuery> points, std::span<const Random> random,
-                           std::span<PathResult> results) {
+Result<void> PathBatch::fromPoints(std::span<const FieldQuery> points, std::span<const Random> random,
+                                   std::span<PathResult> results) {
     m_results = results;
     m_fromPoints = true;
     begin(points.size());
@@ -62,17 +62,17 @@ void PathBatch::fromPoints(std::span<const FieldQuery> points, std::span<const R
         m_paths.push_back(path);
         m_rays.push_back(ray);
     }
-    resolveShadows();
-    resolveLookUps();
-    run();
+    if (auto resolved = resolveShadows(); !resolved) return resolved;
+    if (auto resolved = resolveLookUps(); !resolved) return resolved;
+    return run();
 }
 
-void PathBatch::run() {
+Result<void> PathBatch::run() {
     while (!m_paths.empty()) {
         m_hits.assign(m_paths.size(), Hit{});
         m_surfaces.resize(m_paths.size());
-        m_transport.tracer->closestHits(m_rays, m_hits);
-        m_transport.tracer->surfaces(m_rays, m_hits, m_surfaces);
+        if (auto hit = m_transport.tracer->closestHits(m_rays, m_hits); !hit) return hit;
+        if (auto found = m_transport.tracer->surfaces(m_rays, m_hits, m_surfaces); !found) return found;
         m_shadows.clear();
         m_shadowRays.clear();
         m_lookUps.clear();
@@ -86,9 +86,10 @@ void PathBatch::run() {
         }
         m_paths.erase(m_paths.begin() + std::ptrdiff_t(alive), m_paths.end());
         m_rays.resize(alive);
-        resolveShadows();
-        resolveLookUps();
+        if (auto resolved = resolveShadows(); !resolved) return resolved;
+        if (auto resolved = resolveLookUps(); !resolved) return resolved;
     }
+    return {};
 }
 
 /// Adds what the hit (or miss) of path i gives and turns the path around. False: the path has ended.

@@ -28,10 +28,13 @@ public:
     PathBatch(const Transport& transport, const PathSettings& settings);
 
     /// One path along each camera ray; its stream of random numbers has the ray's index. The spans are equally long.
-    void fromCamera(std::span<const Ray> cameraRays, std::span<const Random> random, std::span<PathResult> results);
+    /// Errors: those of the tracer.
+    Result<void> fromCamera(std::span<const Ray> cameraRays, std::span<const Random> random,
+                            std::span<PathResult> results);
     /// One path from each point, into PathResult::irradiance: light of surfaces and sky, without punctual lights on the
-    /// point itself.
-    void fromPoints(std::span<const FieldQuery> points, std::span<const Random> random, std::span<PathResult> results);
+    /// point itself. Errors: those of the tracer.
+    Result<void> fromPoints(std::span<const FieldQuery> points, std::span<const Random> random,
+                            std::span<PathResult> results);
 
 private:
     struct Path {
@@ -75,7 +78,7 @@ private:
     };
 
     void begin(std::size_t count);
-    void run();
+    Result<void> run();
     bool shadeHit(std::size_t i);
     void addSky(const Path& path, const Ray& ray);
     void addEmission(const Path& path, const Ray& ray, const Hit& hit, const Surface& surface);
@@ -92,8 +95,8 @@ private:
     float survivalOf(const Path& path) const;
     void follow(const PathGuide& guide, Vertex& vertex) const;
     float pdfScatter(const Vertex& vertex, glm::vec3 local, glm::vec3 direction) const;
-    void resolveShadows();
-    void resolveLookUps();
+    Result<void> resolveShadows();
+    Result<void> resolveLookUps();
     float lightSampleWeight(float pdfLight, float pdfBsdf) const;
     float bsdfSampleWeight(float pdfBsdf, float pdfLight) const;
 

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -10,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "core/sentence.h"
 #include "reference/film.h"
 #include "reference/guide_learning.h"
 #include "reference/irradiance_estimate.h"
@@ -101,8 +100,9 @@ private:
 };
 
 /// `count` more samples, from number `first` on, for the pixels begin..end.
-void tracePixels(const Transport& transport, const ReferenceDesc& desc, const PathSettings& settings,
-                 const PinholeCamera& camera, std::size_t begin, std::size_t end, int first, int count, Film& film) {
+Result<void> tracePixels(const Transport& transport, const ReferenceDesc& desc, const PathSettings& settings,
+                         const PinholeCamera& camera, std::size_t begin, std::size_t end, int first, int count,
+                         Film& film) {
     std::vector<Ray> rays;
     std::vector<Random> random;
     for (std::size_t pixel = begin; pixel < end; ++pixel)
@@ -112,8 +112,9 @@ void tracePixels(const Transport& transport, const ReferenceDesc& desc, const Pa
             random.push_back(stream);
         }
     std::vector<PathResult> results(rays.size());
-    PathBatch(transport, settings).fromCamera(rays, random, results);
+    if (auto traced = PathBatch(transport, settings).fromCamera(rays, random, results); !traced) return traced;
     for (std::size_t i = 0; i < results.size(); ++i) film.add(begin + i / std::size_t(count), results[i]);
+    return {};
 }
 
 /// Learns from what the camera sees, on rays of their own through random pixels.
@@ -126,7 +127,9 @@ Result<PathGuide> learnFromCamera(const Context& context, const Transport& trans
         const auto pixel = std::size_t((double(i) + random.nextDouble()) / double(kGuideRays) * double(pixels));
         rays.push_back(camera.ray(std::min(pixel, pixels - 1), random.nextPair()));
     }
-    return learnGuide(context, transport, *desc.guide, receiversSeen(transport, rays), desc.seed ^ kGuideSeed);
+    return receiversSeen(transport, rays).and_then([&](std::vector<GuideReceiver> seen) {
+        return learnGuide(context, transport, *desc.guide, std::move(seen), desc.seed ^ kGuideSeed);
+    });
 }
 
 /// Learns from the points, each as often as it takes to have as many beginnings as a picture has.
@@ -144,10 +147,10 @@ Result<void> checkDesc(const ReferenceDesc& desc) {
     const auto bad = [](const std::string& sentence) { return fail(ErrorCode::invalidArgument, sentence); };
     const PictureDesc& picture = desc.picture;
     if (picture.width < 1 || picture.width > 16384 || picture.height < 1 || picture.height > 16384)
-        return bad(fmt::format("The picture size is {}x{}; each side must be 1 to 16384 pixels.", picture.width,
-                               picture.height));
+        return bad(sentence("The picture size is ", picture.width, "x", picture.height,
+                            "; each side must be 1 to 16384 pixels."));
     if (!(picture.camera.yfov > 0 && picture.camera.yfov < kernels::kPi))
-        return bad(fmt::format("The camera's yfov is {}; it must lie between 0 and pi.", picture.camera.yfov));
+        return bad(sentence("The camera's yfov is ", picture.camera.yfov, "; it must lie between 0 and pi."));
     if (desc.samplesPerPixel < 0 || !(desc.seconds >= 0) || !(desc.relativeError >= 0) || desc.maxBounces < 0)
         return bad("samplesPerPixel, seconds, relativeError and maxBounces of the reference must not be negative.");
     if (desc.samplesPerPixel == 0 && desc.seconds == 0 && desc.relativeError == 0)
@@ -162,7 +165,7 @@ Result<ReferencePicture> renderPasses(const Context& context, const Transport& t
     std::optional<PathGuide> guide;
     if (desc.guide) {
         auto learned = learnFromCamera(context, transport, desc, camera);
-        if (!learned) return tl::unexpected(learned.error());
+        if (!learned) return learned.error();
         guide = std::move(*learned);
     }
     const double guideSeconds = desc.guide ? rules.seconds() : 0;
@@ -174,18 +177,20 @@ Result<ReferencePicture> renderPasses(const Context& context, const Transport& t
     while (!rules.done(samples, film)) {
         const int pass = rules.nextPass(samples);
         std::atomic<std::size_t> pixelsDone = 0;
-        parallelFor(context, film.pixelCount(), std::max<std::size_t>(1, kPathsPerBatch / std::size_t(pass)),
-                    [&](std::size_t begin, std::size_t end) {
-                        if (progress.cancelled()) return;
-                        tracePixels(transport, desc, settings, camera, begin, end, samples, pass, film);
-                        const auto done = double(pixelsDone += end - begin);
-                        progress.set(rules.fraction(samples + pass * done / double(film.pixelCount())));
-                    });
+        const auto trace = [&](std::size_t begin, std::size_t end) -> Result<void> {
+            if (progress.cancelled()) return {};
+            auto traced = tracePixels(transport, desc, settings, camera, begin, end, samples, pass, film);
+            const auto done = double(pixelsDone += end - begin);
+            progress.set(rules.fraction(samples + pass * done / double(film.pixelCount())));
+            return traced;
+        };
+        const std::size_t grain = std::max<std::size_t>(1, kPathsPerBatch / std::size_t(pass));
+        if (auto traced = tryParallelFor(context, film.pixelCount(), grain, trace); !traced) return traced.error();
         if (progress.cancelled()) return fail(ErrorCode::cancelled, "Path tracing was cancelled.");
         samples += pass;
     }
     if (const std::int64_t rejected = film.rejectedCount(); rejected > 0)
-        context.log(LogLevel::warning, fmt::format("{} paths were not finite and count as black.", rejected));
+        context.log(LogLevel::warning, sentence(rejected, " paths were not finite and count as black."));
     ReferencePicture out = film.develop();
     out.samplesPerPixel = samples;
     out.seconds = rules.seconds();
@@ -210,12 +215,11 @@ PathTracer& PathTracer::operator=(PathTracer&&) noexcept = default;
 PathTracer::~PathTracer() = default;
 
 Result<ReferencePicture> PathTracer::render(const ReferenceDesc& desc) const try {
-    if (const Result<void> checked = checkDesc(desc); !checked) return tl::unexpected(checked.error());
+    if (const Result<void> checked = checkDesc(desc); !checked) return checked.error();
     return renderPasses(m_impl->context, m_impl->transport, desc);
 } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::outOfMemory,
-                fmt::format("There is not enough memory for a reference of {}x{} pixels; make it smaller.",
-                            desc.picture.width, desc.picture.height));
+    return fail(ErrorCode::outOfMemory, sentence("There is not enough memory for a reference of ", desc.picture.width,
+                                                 "x", desc.picture.height, " pixels; make it smaller."));
 }
 
 Result<std::vector<ReferenceIrradiance>> PathTracer::irradiance(std::span<const FieldQuery> points, int samples,
@@ -223,11 +227,11 @@ Result<std::vector<ReferenceIrradiance>> PathTracer::irradiance(std::span<const 
                                                                 const Field* guide) const try {
     if (samples < 1)
         return fail(ErrorCode::invalidArgument,
-                    fmt::format("samples is {}; the reference irradiance needs at least 1.", samples));
+                    sentence("samples is ", samples, "; the reference irradiance needs at least 1."));
     std::optional<PathGuide> learned;
     if (guide) {
         auto lessons = learnFromPoints(m_impl->context, m_impl->transport, points, *guide, seed);
-        if (!lessons) return tl::unexpected(lessons.error());
+        if (!lessons) return lessons.error();
         learned = std::move(*lessons);
     }
     const PathSettings settings{.diffuseOnly = diffuseOnly,

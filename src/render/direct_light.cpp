@@ -37,13 +37,13 @@ void collectCandidates(const PlacedLight& light, float sceneMagnitude, TileSampl
 
 }  // namespace
 
-void shadeDirect(const Tracer& tracer, const Lighting& lighting, float sceneMagnitude, bool diffuseOnly,
-                 TileSamples& samples) {
+Result<void> shadeDirect(const Tracer& tracer, const Lighting& lighting, float sceneMagnitude, bool diffuseOnly,
+                         TileSamples& samples) {
     samples.direct.clear();
     for (const std::uint32_t index : samples.seen) samples.direct.push_back(samples.surfaces[index].emission);
     for (const PlacedLight& light : lighting.lights) {
         collectCandidates(light, sceneMagnitude, samples);
-        tracer.occluded(samples.shadowRays, samples.blocked);
+        if (auto traced = tracer.occluded(samples.shadowRays, samples.blocked); !traced) return traced;
         for (std::size_t i = 0; i < samples.candidates.size(); ++i) {
             if (samples.blocked[i]) continue;
             const auto& candidate = samples.candidates[i];
@@ -53,6 +53,7 @@ void shadeDirect(const Tracer& tracer, const Lighting& lighting, float sceneMagn
                                                samples.shadowRays[i].direction, diffuseOnly);
         }
     }
+    return {};
 }
 
 }  // namespace probegi

@@ -5,7 +5,8 @@
 namespace probegi {
 
 /// Fills `direct`: the surface's own emission, and what it reflects of each punctual light that it can see.
-void shadeDirect(const Tracer& tracer, const Lighting& lighting, float sceneMagnitude, bool diffuseOnly,
-                 TileSamples& samples);
+/// Errors: those of the tracer.
+Result<void> shadeDirect(const Tracer& tracer, const Lighting& lighting, float sceneMagnitude, bool diffuseOnly,
+                         TileSamples& samples);
 
 }  // namespace probegi

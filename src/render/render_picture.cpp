@@ -1,9 +1,5 @@
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <mutex>
 #include <new>
 
 #include "core/parallel.h"
@@ -28,22 +24,6 @@ std::vector<Tile> makeTiles(const PictureDesc& desc) {
     return tiles;
 }
 
-// What went wrong first on any of the threads.
-class FirstError {
-public:
-    void set(const Error& error) {
-        const std::scoped_lock lock(m_mutex);
-        if (!m_happened.exchange(true)) m_error = error;
-    }
-    explicit operator bool() const noexcept { return m_happened; }
-    const Error& get() const noexcept { return m_error; }  // once the threads are done
-
-private:
-    std::mutex m_mutex;
-    std::atomic<bool> m_happened{false};
-    Error m_error;
-};
-
 Result<RenderedPicture> renderTiles(const Context& context, const Tracer& tracer, const Lighting& lighting,
                                     const Field* field, const PictureDesc& desc) {
     const auto start = std::chrono::steady_clock::now();
@@ -51,20 +31,15 @@ Result<RenderedPicture> renderTiles(const Context& context, const Tracer& tracer
     const std::vector<Tile> tiles = makeTiles(desc);
     TileRenderer renderer(tracer, lighting, field, desc);
     Progress progress(context, "rendering", double(tiles.size()));
-    tbb::enumerable_thread_specific<TileSamples> scratch;
-    FirstError failure;
-    parallelFor(context, tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
-        // A query of the field runs on all threads. Without the fence a thread that waits for its share would begin
-        // another tile and overwrite the samples of the one that it is in.
-        tbb::this_task_arena::isolate([&] {
-            for (std::size_t tile = begin; tile < end && !progress.cancelled() && !failure; ++tile) {
-                if (const auto done = renderer.render(tiles[tile], scratch.local(), rendered.picture); !done)
-                    failure.set(done.error());
-                progress.advance();
-            }
-        });
-    });
-    if (failure) return tl::unexpected(failure.get());
+    const auto render = [&](std::size_t begin, std::size_t end) -> Result<void> {
+        thread_local TileSamples samples;
+        for (std::size_t tile = begin; tile < end && !progress.cancelled(); ++tile) {
+            if (auto done = renderer.render(tiles[tile], samples, rendered.picture); !done) return done;
+            progress.advance();
+        }
+        return {};
+    };
+    if (auto done = tryParallelFor(context, tiles.size(), 1, render); !done) return done.error();
     if (progress.cancelled()) return fail(ErrorCode::cancelled, "rendering was cancelled");
     rendered.times = renderer.threadTimes();
     for (double* stage : {&rendered.times.primary, &rendered.times.direct, &rendered.times.query})
@@ -77,11 +52,11 @@ Result<RenderedPicture> renderTiles(const Context& context, const Tracer& tracer
 
 Result<RenderedPicture> renderPicture(const Context& context, const Tracer& tracer, const Lighting& lighting,
                                       const Field* field, const PictureDesc& desc) {
-    if (const auto checked = validatePictureDesc(desc); !checked) return tl::unexpected(checked.error());
+    if (const auto checked = validatePictureDesc(desc); !checked) return checked.error();
     try {
         return renderTiles(context, tracer, lighting, field, desc);
     } catch (const std::bad_alloc&) {
-        return tl::unexpected(pictureDoesNotFit(desc));
+        return pictureDoesNotFit(desc);
     }
 }
 

@@ -65,9 +65,10 @@ float TileRenderer::spread() const {
 
 Result<void> TileRenderer::render(const Tile& tile, TileSamples& samples, Picture& picture) {
     auto start = Clock::now();
-    castPrimary(tile, samples);
+    if (auto cast = castPrimary(tile, samples); !cast) return cast;
     lap(start, m_primaryNs);
-    shadeDirect(m_tracer, m_lighting, m_sceneMagnitude, m_desc.diffuseOnly, samples);
+    if (auto shaded = shadeDirect(m_tracer, m_lighting, m_sceneMagnitude, m_desc.diffuseOnly, samples); !shaded)
+        return shaded;
     lap(start, m_directNs);
     if (auto asked = queryField(samples); !asked) return asked;
     lap(start, m_queryNs);
@@ -75,7 +76,7 @@ Result<void> TileRenderer::render(const Tile& tile, TileSamples& samples, Pictur
     return {};
 }
 
-void TileRenderer::castPrimary(const Tile& tile, TileSamples& samples) const {
+Result<void> TileRenderer::castPrimary(const Tile& tile, TileSamples& samples) const {
     const int side = m_desc.samplesPerAxis;
     const float step = 1.0f / float(side);
     samples.rays.clear();
@@ -87,11 +88,13 @@ void TileRenderer::castPrimary(const Tile& tile, TileSamples& samples) const {
                                                                   float(y) + (float(s / side) + 0.5f) * step)});
     samples.hits.resize(samples.rays.size());
     samples.surfaces.resize(samples.rays.size());
-    m_tracer.closestHits(samples.rays, samples.hits);
-    m_tracer.filteredSurfaces(samples.rays, samples.hits, spread(), samples.surfaces);
+    if (auto hit = m_tracer.closestHits(samples.rays, samples.hits); !hit) return hit;
+    if (auto found = m_tracer.filteredSurfaces(samples.rays, samples.hits, spread(), samples.surfaces); !found)
+        return found;
     samples.seen.clear();
     for (std::uint32_t i = 0; i < samples.hits.size(); ++i)
         if (samples.hits[i].valid()) samples.seen.push_back(i);
+    return {};
 }
 
 Result<void> TileRenderer::queryField(TileSamples& samples) const {

@@ -15,7 +15,7 @@ class TileRenderer {
 public:
     TileRenderer(const Tracer& tracer, const Lighting& lighting, const Field* field, const PictureDesc& desc);
 
-    /// Errors: those of Field::irradiance.
+    /// Errors: those of the tracer and of Field::irradiance.
     Result<void> render(const Tile& tile, TileSamples& samples, Picture& picture);
 
     /// Time of each stage, summed over threads.
@@ -24,7 +24,7 @@ public:
 private:
     /// Of the cone that a primary ray stands for, radians.
     float spread() const;
-    void castPrimary(const Tile& tile, TileSamples& samples) const;
+    Result<void> castPrimary(const Tile& tile, TileSamples& samples) const;
     Result<void> queryField(TileSamples& samples) const;
     void resolve(const Tile& tile, const TileSamples& samples, Picture& picture) const;
 

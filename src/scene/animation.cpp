@@ -63,26 +63,26 @@ namespace {
 Result<void> validateChannel(const Scene& scene, const std::string& what, const AnimationChannel& c) {
     using namespace checks;
     if (c.node < 0 || std::size_t(c.node) >= scene.nodes.size()) {
-        return malformed("{}: moves node {}, but the scene has {}", what, c.node, scene.nodes.size());
+        return malformed(what, ": moves node ", c.node, ", but the scene has ", scene.nodes.size());
     }
-    if (c.times.empty()) return malformed("{}: there is no keyframe", what);
+    if (c.times.empty()) return malformed(what, ": there is no keyframe");
     for (std::size_t k = 0; k < c.times.size(); ++k) {
-        if (!finite(c.times[k])) return malformed("{}: the time of key {} is not finite", what, k);
+        if (!finite(c.times[k])) return malformed(what, ": the time of key ", k, " is not finite");
         if (k > 0 && c.times[k] <= c.times[k - 1]) {
-            return malformed("{}: key {} at {:g} s does not come after key {} at {:g} s", what, k, c.times[k], k - 1,
-                             c.times[k - 1]);
+            return malformed(what, ": key ", k, " at ", c.times[k], " s does not come after key ", k - 1, " at ",
+                             c.times[k - 1], " s");
         }
     }
     const std::size_t perKey = c.interpolation == Interpolation::cubicSpline ? 3 : 1;
     if (c.values.size() != perKey * c.times.size()) {
-        return malformed("{}: {} values for {} keys; there must be {} a key", what, c.values.size(), c.times.size(),
-                         perKey);
+        return malformed(what, ": ", c.values.size(), " values for ", c.times.size(), " keys; there must be ", perKey,
+                         " a key");
     }
     for (std::size_t v = 0; v < c.values.size(); ++v) {
-        if (!finite(c.values[v])) return malformed("{}: value {} is not finite", what, v);
+        if (!finite(c.values[v])) return malformed(what, ": value ", v, " is not finite");
         const bool isKey = perKey == 1 || v % 3 == 1;
         if (c.path == AnimationPath::rotation && isKey && glm::dot(c.values[v], c.values[v]) < 1e-12f) {
-            return malformed("{}: value {} is a rotation of length zero", what, v);
+            return malformed(what, ": value ", v, " is a rotation of length zero");
         }
     }
     return {};

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
 #include <cmath>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
@@ -9,6 +8,7 @@
 #include <glm/vec4.hpp>
 #include <string>
 
+#include "core/sentence.h"
 #include "probegi/scene.h"
 
 /// Small predicates and the common form of validate()'s sentences: "WHAT: WHY".
@@ -44,20 +44,20 @@ inline bool energy(glm::vec3 v) {
 }
 
 inline std::string text(glm::vec3 v) {
-    return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z);
+    return sentence("(", v.x, ", ", v.y, ", ", v.z, ")");
 }
 inline std::string text(glm::vec4 v) {
-    return fmt::format("({:g}, {:g}, {:g}, {:g})", v.x, v.y, v.z, v.w);
+    return sentence("(", v.x, ", ", v.y, ", ", v.z, ", ", v.w, ")");
 }
 
 /// "material 3 'brick'", or "material 3" for one without a name.
 inline std::string title(std::string_view kind, std::size_t index, std::string_view name) {
-    return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, name);
+    return name.empty() ? sentence(kind, " ", index) : sentence(kind, " ", index, " '", name, "'");
 }
 
-template <class... Args>
-[[nodiscard]] tl::unexpected<Error> malformed(fmt::format_string<Args...> format, Args&&... args) {
-    return fail(ErrorCode::malformed, fmt::format(format, std::forward<Args>(args)...));
+template <class... Parts>
+[[nodiscard]] Error malformed(const Parts&... parts) {
+    return fail(ErrorCode::malformed, sentence(parts...));
 }
 
 /// An index into a list of `count`, or -1 for none.

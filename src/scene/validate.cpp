@@ -18,14 +18,15 @@ Result<void> validateExtent(const Scene& scene) {
         for (int column = 0; column < 4; ++column) {
             if (inside(glm::vec3(instance.toWorld[column]), 1e18f)) continue;
             const std::size_t node = std::size_t(instance.node);
-            return malformed("{}: its transform multiplied with its parents' is too large ({})",
-                             title("node", node, scene.nodes[node].name), text(instance.toWorld[column]));
+            return malformed(title("node", node, scene.nodes[node].name),
+                             ": its transform multiplied with its parents' is too large (",
+                             text(instance.toWorld[column]), ")");
         }
     }
     const Bounds& b = pose.bounds;
     if (!inside(b.lower, kLimit) || !inside(b.upper, kLimit)) {
-        return malformed("the scene's triangles reach from {} to {}; coordinates beyond {:g} m are not supported",
-                         text(b.lower), text(b.upper), kLimit);
+        return malformed("the scene's triangles reach from ", text(b.lower), " to ", text(b.upper),
+                         "; coordinates beyond ", kLimit, " m are not supported");
     }
     return {};
 }
@@ -34,34 +35,35 @@ Result<void> validateExtent(const Scene& scene) {
 
 Result<void> validateSurroundings(const Scene& scene) {
     const Sky& sky = scene.sky;
-    if (!energy(sky.radiance)) return malformed("sky: radiance {} must be finite and >= 0", text(sky.radiance));
+    if (!energy(sky.radiance)) return malformed("sky: radiance ", text(sky.radiance), " must be finite and >= 0");
     const HdrImage& image = sky.image;
     if (image.width < 0 || image.height < 0 || image.pixels.size() != std::size_t(image.width) * image.height) {
-        return malformed("sky image: {} pixels do not make {} x {}", image.pixels.size(), image.width, image.height);
+        return malformed("sky image: ", image.pixels.size(), " pixels do not make ", image.width, " x ", image.height);
     }
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         if (!energy(image.pixels[i])) {
-            return malformed("sky image: pixel {} is {}; radiance must be finite and >= 0", i, text(image.pixels[i]));
+            return malformed("sky image: pixel ", i, " is ", text(image.pixels[i]),
+                             "; radiance must be finite and >= 0");
         }
     }
     if (!finite(scene.exposure) || scene.exposure <= 0) {
-        return malformed("scene: exposure {:g} must be finite and > 0", scene.exposure);
+        return malformed("scene: exposure ", scene.exposure, " must be finite and > 0");
     }
     if (!scene.grid) return {};
     const GridDesc& grid = *scene.grid;
-    if (!finite(grid.origin)) return malformed("probe grid: origin {} must be finite", text(grid.origin));
+    if (!finite(grid.origin)) return malformed("probe grid: origin ", text(grid.origin), " must be finite");
     if (!energy(grid.spacing) || grid.spacing.x <= 0 || grid.spacing.y <= 0 || grid.spacing.z <= 0) {
-        return malformed("probe grid: spacing {} must be finite and > 0", text(grid.spacing));
+        return malformed("probe grid: spacing ", text(grid.spacing), " must be finite and > 0");
     }
     std::int64_t product = 1;
     for (int axis = 0; axis < 3; ++axis) {
         const int count = grid.counts[axis];
         if (count < 2 || count > 1024) {
-            return malformed("probe grid: {} probes along axis {} must be 2..1024", count, "xyz"[axis]);
+            return malformed("probe grid: ", count, " probes along axis ", "xyz"[axis], " must be 2..1024");
         }
         product *= count;
     }
-    if (product > (1 << 24)) return malformed("probe grid: {} probes are more than 2^24; use fewer", product);
+    if (product > (1 << 24)) return malformed("probe grid: ", product, " probes are more than 2^24; use fewer");
     return {};
 }
 

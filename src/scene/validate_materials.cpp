@@ -9,12 +9,12 @@ Result<void> validateImages(const Scene& scene) {
         const TextureImage& image = scene.images[i];
         const std::string what = title("image", i, image.name);
         if (image.width < 1 || image.height < 1 || image.width > 65536 || image.height > 65536) {
-            return malformed("{}: size {} x {} must be 1..65536 pixels each way", what, image.width, image.height);
+            return malformed(what, ": size ", image.width, " x ", image.height, " must be 1..65536 pixels each way");
         }
         const std::size_t expected = 4 * std::size_t(image.width) * std::size_t(image.height);
         if (image.rgba.size() != expected) {
-            return malformed("{}: {} bytes of pixels where {} x {} RGBA needs {}", what, image.rgba.size(), image.width,
-                             image.height, expected);
+            return malformed(what, ": ", image.rgba.size(), " bytes of pixels where ", image.width, " x ", image.height,
+                             " RGBA needs ", expected);
         }
     }
     return {};
@@ -24,27 +24,27 @@ namespace {
 
 Result<void> validateTexture(const Scene& scene, const std::string& what, const char* slot, const TextureRef& ref) {
     if (!optionalIndex(ref.image, scene.images.size())) {
-        return malformed("{}: {} texture uses image {}, but the scene has {}", what, slot, ref.image,
+        return malformed(what, ": ", slot, " texture uses image ", ref.image, ", but the scene has ",
                          scene.images.size());
     }
     if (ref.texCoord != 0 && ref.texCoord != 1) {
-        return malformed("{}: {} texture uses uv set {}; only 0 and 1 are supported", what, slot, ref.texCoord);
+        return malformed(what, ": ", slot, " texture uses uv set ", ref.texCoord, "; only 0 and 1 are supported");
     }
-    if (!finite(ref.uvTransform)) return malformed("{}: {} texture has a uv transform that is not finite", what, slot);
+    if (!finite(ref.uvTransform)) return malformed(what, ": ", slot, " texture has a uv transform that is not finite");
     return {};
 }
 
 Result<void> validateFactors(const std::string& what, const Material& m) {
     for (int c = 0; c < 4; ++c) {
         if (!within(m.baseColor[c], 0, 1)) {
-            return malformed("{}: base colour {} must be 0..1 in every component", what, text(m.baseColor));
+            return malformed(what, ": base colour ", text(m.baseColor), " must be 0..1 in every component");
         }
     }
-    if (!within(m.metallic, 0, 1)) return malformed("{}: metallic {:g} must be 0..1", what, m.metallic);
-    if (!within(m.roughness, 0, 1)) return malformed("{}: roughness {:g} must be 0..1", what, m.roughness);
-    if (!energy(m.emission)) return malformed("{}: emission {} must be finite and >= 0", what, text(m.emission));
-    if (!finite(m.normalScale)) return malformed("{}: normal scale {:g} must be finite", what, m.normalScale);
-    if (!within(m.alphaCutoff, 0, 1)) return malformed("{}: alpha cutoff {:g} must be 0..1", what, m.alphaCutoff);
+    if (!within(m.metallic, 0, 1)) return malformed(what, ": metallic ", m.metallic, " must be 0..1");
+    if (!within(m.roughness, 0, 1)) return malformed(what, ": roughness ", m.roughness, " must be 0..1");
+    if (!energy(m.emission)) return malformed(what, ": emission ", text(m.emission), " must be finite and >= 0");
+    if (!finite(m.normalScale)) return malformed(what, ": normal scale ", m.normalScale, " must be finite");
+    if (!within(m.alphaCutoff, 0, 1)) return malformed(what, ": alpha cutoff ", m.alphaCutoff, " must be 0..1");
     return {};
 }
 

@@ -1,6 +1,6 @@
 #include "surface/picture_desc.h"
 
-#include <fmt/format.h>
+#include "core/sentence.h"
 
 namespace probegi {
 
@@ -10,12 +10,11 @@ constexpr int kMaxSide = 16384;
 
 Result<void> validatePictureDesc(const PictureDesc& desc) {
     if (desc.width < 1 || desc.width > kMaxSide || desc.height < 1 || desc.height > kMaxSide)
-        return fail(ErrorCode::invalidArgument, fmt::format("a picture of {}x{} pixels is not possible; each side must "
-                                                            "be 1 to {}",
-                                                            desc.width, desc.height, kMaxSide));
+        return fail(ErrorCode::invalidArgument, sentence("a picture of ", desc.width, "x", desc.height,
+                                                         " pixels is not possible; each side must be 1 to ", kMaxSide));
     if (desc.samplesPerAxis < 1 || desc.samplesPerAxis > 8)
         return fail(ErrorCode::invalidArgument,
-                    fmt::format("samplesPerAxis is {}; it must be 1 to 8", desc.samplesPerAxis));
+                    sentence("samplesPerAxis is ", desc.samplesPerAxis, "; it must be 1 to 8"));
     return {};
 }
 
@@ -25,9 +24,8 @@ Picture emptyPicture(int width, int height) {
 }
 
 Error pictureDoesNotFit(const PictureDesc& desc) {
-    return {ErrorCode::outOfMemory,
-            fmt::format("a picture of {}x{} pixels does not fit into memory; choose a smaller size", desc.width,
-                        desc.height)};
+    return {ErrorCode::outOfMemory, sentence("a picture of ", desc.width, "x", desc.height,
+                                             " pixels does not fit into memory; choose a smaller size")};
 }
 
 }  // namespace probegi

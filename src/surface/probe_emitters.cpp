@@ -74,11 +74,11 @@ EmitterSearch emitterSearch(const FieldDesc& desc, const Tracer& tracer, std::ui
     return {set, desc.raysPerProbe, looks, frameSeed};
 }
 
-void lookAtEmitters(const Context& context, const GridDesc& grid, const EmitterSearch& search, const Tracer& tracer,
-                    std::span<kernels::EmitterLight> out, TraceTimes& times) {
+Result<void> lookAtEmitters(const Context& context, const GridDesc& grid, const EmitterSearch& search,
+                            const Tracer& tracer, std::span<kernels::EmitterLight> out, TraceTimes& times) {
     const float magnitude = sceneMagnitude(tracer.bounds());
     const std::size_t looks = std::size_t(search.looks);
-    parallelFor(context, std::size_t(probeCount(grid)), kLooksPerTask / looks, [&](std::size_t begin, std::size_t end) {
+    const auto look = [&](std::size_t begin, std::size_t end) -> Result<void> {
         thread_local TaskBuffers b;
         const auto start = Clock::now();
         b.rays.clear();
@@ -86,18 +86,20 @@ void lookAtEmitters(const Context& context, const GridDesc& grid, const EmitterS
         b.materials.clear();
         for (std::size_t probe = begin; probe < end; ++probe) {
             const std::uint32_t seed = kernels::emitterSeed(search.seed, std::uint32_t(probe));
-            for (std::uint32_t look = 0; look < std::uint32_t(looks); ++look)
-                aim(probePosition(grid, int(probe)), seed, look, search, magnitude, b);
+            for (std::uint32_t i = 0; i < std::uint32_t(looks); ++i)
+                aim(probePosition(grid, int(probe)), seed, i, search, magnitude, b);
         }
         b.hits.resize(b.rays.size());
         b.surfaces.resize(b.rays.size());
-        tracer.closestHits(b.rays, b.hits);
+        if (auto hit = tracer.closestHits(b.rays, b.hits); !hit) return hit;
         const auto traced = Clock::now();
-        tracer.surfaces(b.rays, b.hits, b.surfaces);
+        if (auto seen = tracer.surfaces(b.rays, b.hits, b.surfaces); !seen) return seen;
         for (std::size_t i = 0; i < b.rays.size(); ++i) out[begin * looks + i] = lightOf(search, i, b);
         times.traceNs += nanoseconds(traced - start);
         times.shadeNs += nanoseconds(Clock::now() - traced);
-    });
+        return {};
+    };
+    return tryParallelFor(context, std::size_t(probeCount(grid)), kLooksPerTask / looks, look);
 }
 
 }  // namespace probegi

@@ -31,7 +31,8 @@ inline int emitterLooks(const FieldDesc& desc) noexcept {
 EmitterSearch emitterSearch(const FieldDesc& desc, const Tracer& tracer, std::uint32_t frameSeed);
 
 /// What all probes' looks bring home, as [probe][look], on the context's threads. The search must not be empty.
-void lookAtEmitters(const Context& context, const GridDesc& grid, const EmitterSearch& search, const Tracer& tracer,
-                    std::span<kernels::EmitterLight> out, TraceTimes& times);
+/// Errors: those of the tracer.
+Result<void> lookAtEmitters(const Context& context, const GridDesc& grid, const EmitterSearch& search,
+                            const Tracer& tracer, std::span<kernels::EmitterLight> out, TraceTimes& times);
 
 }  // namespace probegi

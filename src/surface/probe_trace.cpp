@@ -54,7 +54,7 @@ void makeRays(const GridDesc& grid, const ProbeRayDirections& directions, std::s
 }
 
 // Irradiance from punctual lights, in b.irradiance.
-void gatherDirectLight(const Tracer& tracer, const Lighting& lighting, float magnitude, TaskBuffers& b) {
+Result<void> gatherDirectLight(const Tracer& tracer, const Lighting& lighting, float magnitude, TaskBuffers& b) {
     b.irradiance.assign(b.lit.size(), glm::vec3(0));
     for (const PlacedLight& light : lighting.lights) {
         b.shadowRays.clear();
@@ -72,20 +72,21 @@ void gatherDirectLight(const Tracer& tracer, const Lighting& lighting, float mag
             b.unshadowed.push_back(e);
         }
         b.blocked.resize(b.shadowRays.size());
-        tracer.occluded(b.shadowRays, b.blocked);
+        if (auto traced = tracer.occluded(b.shadowRays, b.blocked); !traced) return traced;
         for (std::size_t k = 0; k < b.blocked.size(); ++k)
             if (!b.blocked[k]) b.irradiance[b.shadowed[k]] += b.unshadowed[k];
     }
+    return {};
 }
 
 // Irradiance of earlier bounces at the hits: last frame's field (section 2.3).
-void queryBounces(const BounceQuery& bounces, TaskBuffers& b) {
+Result<void> queryBounces(const BounceQuery& bounces, TaskBuffers& b) {
     b.bounced.assign(b.lit.size(), glm::vec3(0));
-    if (!bounces) return;
+    if (!bounces) return {};
     b.queries.clear();
     for (const std::uint32_t i : b.lit)
         b.queries.push_back({b.surfaces[i].position, b.surfaces[i].shadingNormal, -b.rays[i].direction});
-    bounces(b.queries, b.bounced);
+    return bounces(b.queries, b.bounced);
 }
 
 // Where the data of a task's rays go.
@@ -141,35 +142,43 @@ TaskOutput outputOf(const ProbeRayDirections& directions, const ProbeRayData& ou
             out.fixed.subspan(begin * fixed, (end - begin) * fixed)};
 }
 
+// What a task's rays bring home, from their hits on.
+Result<void> shadeTask(const Tracer& tracer, const Lighting& lighting, float magnitude, const BounceQuery& bounces,
+                       const EmitterSearch& emitters, TaskBuffers& b, const TaskOutput& task) {
+    if (auto seen = tracer.surfaces(b.rays, b.hits, b.surfaces); !seen) return seen;
+    resolveHits(lighting, emitters, b, task);
+    if (auto asked = queryBounces(bounces, b); !asked) return asked;
+    if (auto lit = gatherDirectLight(tracer, lighting, magnitude, b); !lit) return lit;
+    for (std::size_t k = 0; k < b.lit.size(); ++k) {
+        const Surface& surface = b.surfaces[b.lit[k]];
+        task.add(b.lit[k], kernels::bounceRadiance(surface.albedo, b.irradiance[k]),
+                 kernels::bounceRadiance(surface.albedo, b.bounced[k]));
+        if (surface.back) task.markBack(b.lit[k]);
+    }
+    return {};
+}
+
 }  // namespace
 
-void traceProbes(const Context& context, const GridDesc& grid, const ProbeRayDirections& directions,
-                 const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces,
-                 const EmitterSearch& emitters, const ProbeRayData& out, TraceTimes& times) {
+Result<void> traceProbes(const Context& context, const GridDesc& grid, const ProbeRayDirections& directions,
+                         const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces,
+                         const EmitterSearch& emitters, const ProbeRayData& out, TraceTimes& times) {
     const float magnitude = sceneMagnitude(tracer.bounds());
     const std::size_t probesPerTask =
         std::max<std::size_t>(1, kRaysPerTask / (directions.update.size() + directions.fixed.size()));
-    parallelFor(context, std::size_t(probeCount(grid)), probesPerTask, [&](std::size_t begin, std::size_t end) {
+    const auto trace = [&](std::size_t begin, std::size_t end) -> Result<void> {
         thread_local TaskBuffers b;
         const auto start = Clock::now();
         makeRays(grid, directions, begin, end, b);
-        tracer.closestHits(b.rays, b.hits);
+        if (auto hit = tracer.closestHits(b.rays, b.hits); !hit) return hit;
         const auto traced = Clock::now();
-
-        tracer.surfaces(b.rays, b.hits, b.surfaces);
         const TaskOutput task = outputOf(directions, out, begin, end);
-        resolveHits(lighting, emitters, b, task);
-        queryBounces(bounces, b);
-        gatherDirectLight(tracer, lighting, magnitude, b);
-        for (std::size_t k = 0; k < b.lit.size(); ++k) {
-            const Surface& surface = b.surfaces[b.lit[k]];
-            task.add(b.lit[k], kernels::bounceRadiance(surface.albedo, b.irradiance[k]),
-                     kernels::bounceRadiance(surface.albedo, b.bounced[k]));
-            if (surface.back) task.markBack(b.lit[k]);
-        }
+        if (auto shaded = shadeTask(tracer, lighting, magnitude, bounces, emitters, b, task); !shaded) return shaded;
         times.traceNs += nanoseconds(traced - start);
         times.shadeNs += nanoseconds(Clock::now() - traced);
-    });
+        return {};
+    };
+    return tryParallelFor(context, std::size_t(probeCount(grid)), probesPerTask, trace);
 }
 
 }  // namespace probegi

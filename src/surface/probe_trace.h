@@ -15,7 +15,7 @@ struct TraceTimes {
 };
 
 /// The field of the last update at points: E in W m^-2. Called from several threads at once.
-using BounceQuery = std::function<void(std::span<const FieldQuery>, std::span<glm::vec3>)>;
+using BounceQuery = std::function<Result<void>(std::span<const FieldQuery>, std::span<glm::vec3>)>;
 
 struct EmitterSearch;
 
@@ -33,9 +33,9 @@ struct ProbeRayData {
 
 /// Traces and shades the rays of all probes on the context's threads, with any tracer: closest hits, surfaces, punctual
 /// lights with shadow rays, emission (of update rays as far as `emitters` leaves it to them), sky, and the light of
-/// earlier bounces (empty: none). Fills `out`.
-void traceProbes(const Context& context, const GridDesc& grid, const ProbeRayDirections& directions,
-                 const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces,
-                 const EmitterSearch& emitters, const ProbeRayData& out, TraceTimes& times);
+/// earlier bounces (empty: none). Fills `out`. Errors: those of the tracer and of `bounces`.
+Result<void> traceProbes(const Context& context, const GridDesc& grid, const ProbeRayDirections& directions,
+                         const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces,
+                         const EmitterSearch& emitters, const ProbeRayData& out, TraceTimes& times);
 
 }  // namespace probegi

@@ -1,6 +1,6 @@
 #include "surface/scene_geometry.h"
 
-#include <fmt/format.h>
+#include "core/sentence.h"
 
 #include <cmath>
 #include <glm/common.hpp>
@@ -79,10 +79,10 @@ Result<std::vector<Placement>> movedPlacements(std::vector<Placement> placements
         const auto found = transforms.find(placement.node);
         if (found == transforms.end())
             return fail(ErrorCode::invalidArgument,
-                        fmt::format("the pose does not place node {}, so it is not one of this scene", placement.node));
+                        sentence("the pose does not place node ", placement.node, ", so it is not one of this scene"));
         if (!invertible(found->second))
             return fail(ErrorCode::invalidArgument,
-                        fmt::format("the pose flattens node {}; move it out of sight instead", placement.node));
+                        sentence("the pose flattens node ", placement.node, "; move it out of sight instead"));
         placement.toWorld = found->second;
         placement.normalToWorld = normalMatrix(found->second);
     }
@@ -93,7 +93,7 @@ Result<void> checkNodes(const Scene& scene, std::span<const int> nodes, const ch
     for (const int node : nodes)
         if (node < 0 || std::size_t(node) >= scene.nodes.size())
             return fail(ErrorCode::invalidArgument,
-                        fmt::format("{} has {}, but the scene has {} nodes", what, node, scene.nodes.size()));
+                        sentence(what, " has ", node, ", but the scene has ", scene.nodes.size(), " nodes"));
     return {};
 }
 

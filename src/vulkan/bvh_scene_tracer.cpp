@@ -91,6 +91,10 @@ private:
 
 std::unique_ptr<SceneTracer> makeBvhSceneTracer(const Context& context, const Device& device,
                                                 const SceneGeometry& geometry, Staging& staging) {
+    if (!treesFollowAHeuristic())
+        device.impl().warn(
+            "this ProbeGI was built without Embree: the trees of the BVH tracer are plain halves, in which "
+            "rays take longer; use ray query, or build with PROBEGI_EMBREE=ON");
     return std::make_unique<BvhSceneTracer>(context, device, geometry, staging);
 }
 

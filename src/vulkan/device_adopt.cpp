@@ -1,7 +1,6 @@
-#include <fmt/format.h>
-
 #include <string_view>
 
+#include "core/sentence.h"
 #include "vulkan/device_impl.h"
 #include "vulkan/errors.h"
 #include "vulkan/loader.h"
@@ -20,7 +19,7 @@ Result<void> checkHandles(const AdoptDesc& desc) {
         return fail(ErrorCode::invalidArgument,
                     "AdoptDesc::allocator has one of its two functions; give allocate and free, or neither");
     if (!absent) return {};
-    return fail(ErrorCode::invalidArgument, fmt::format("AdoptDesc::{} is null; the engine's must be given", absent));
+    return fail(ErrorCode::invalidArgument, sentence("AdoptDesc::", absent, " is null; the engine's must be given"));
 }
 
 bool contains(std::span<const char* const> names, std::string_view wanted) {
@@ -32,13 +31,13 @@ bool contains(std::span<const char* const> names, std::string_view wanted) {
 void require(const std::string& missing) {
     if (!missing.empty())
         throw Failure(ErrorCode::unsupported,
-                      fmt::format("the engine's device lacks {}; enable it or use the CPU backend", missing));
+                      sentence("the engine's device lacks ", missing, "; enable it or use the CPU backend"));
 }
 
 }  // namespace
 
 Result<Device> Device::adopt(const Context& context, const AdoptDesc& desc) {
-    if (auto ok = checkHandles(desc); !ok) return tl::unexpected(ok.error());
+    if (auto ok = checkHandles(desc); !ok) return ok.error();
     return guarded("adopting a device", [&] {
         const PFN_vkGetInstanceProcAddr loader = desc.getInstanceProcAddr ? desc.getInstanceProcAddr : systemLoader();
         if (!loader || !loader(desc.instance, "vkGetDeviceProcAddr"))
@@ -54,7 +53,7 @@ Result<Device> Device::adopt(const Context& context, const AdoptDesc& desc) {
         if (desc.queueFamily >= families.size() ||
             !(families[desc.queueFamily].queueFlags & vk::QueueFlagBits::eCompute))
             throw Failure(ErrorCode::invalidArgument,
-                          fmt::format("queue family {} has no compute; passes need one that has", desc.queueFamily));
+                          sentence("queue family ", desc.queueFamily, " has no compute; passes need one that has"));
         impl->device = vk::raii::Device(impl->physical, desc.device);
         impl->family = desc.queueFamily;
         impl->debugUtilsEnabled = contains(desc.instanceExtensions, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);

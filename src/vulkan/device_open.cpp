@@ -1,9 +1,8 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cstring>
 
+#include "core/sentence.h"
 #include "vulkan/device_impl.h"
 #include "vulkan/errors.h"
 #include "vulkan/loader.h"
@@ -32,7 +31,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
     const auto& impl = *static_cast<const Device::Impl*>(user);
     ++impl.validationMessages;
-    impl.warn(fmt::format("Vulkan validation: {}", data->pMessage));
+    impl.warn(sentence("Vulkan validation: ", data->pMessage));
     return VK_FALSE;
 }
 
@@ -75,8 +74,7 @@ int rank(const vk::raii::PhysicalDevice& device) {
 
 std::string listed(const std::vector<DeviceInfo>& infos) {
     std::string text;
-    for (const DeviceInfo& info : infos)
-        text += fmt::format("{}{} '{}'", text.empty() ? "" : ", ", info.index, info.name);
+    for (const DeviceInfo& info : infos) text += sentence(text.empty() ? "" : ", ", info.index, " '", info.name, "'");
     return text;
 }
 
@@ -93,7 +91,7 @@ std::size_t findNamed(const std::vector<DeviceInfo>& infos, const std::string& w
     for (const DeviceInfo& info : infos)
         if (lower(info.name).find(lower(wanted)) != std::string::npos) return std::size_t(info.index);
     throw Failure(ErrorCode::unsupported,
-                  fmt::format("there is no Vulkan device '{}'; there are: {}", wanted, listed(infos)));
+                  sentence("there is no Vulkan device '", wanted, "'; there are: ", listed(infos)));
 }
 
 std::size_t choose(const std::vector<vk::raii::PhysicalDevice>& devices, const std::string& wanted) {
@@ -106,16 +104,16 @@ std::size_t choose(const std::vector<vk::raii::PhysicalDevice>& devices, const s
     if (!wanted.empty()) {
         const std::size_t index = findNamed(infos, wanted);
         if (infos[index].usable()) return index;
-        throw Failure(ErrorCode::unsupported, fmt::format("the Vulkan device '{}' lacks {}; choose another one or use "
-                                                          "the CPU backend",
-                                                          infos[index].name, infos[index].missing));
+        throw Failure(ErrorCode::unsupported,
+                      sentence("the Vulkan device '", infos[index].name, "' lacks ", infos[index].missing,
+                               "; choose another one or use the CPU backend"));
     }
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < devices.size(); ++i)
         if (infos[i].usable() && (!best || rank(devices[i]) < rank(devices[*best]))) best = i;
     if (best) return *best;
-    throw Failure(ErrorCode::unsupported, fmt::format("no Vulkan device is usable: '{}' lacks {}; use the CPU backend",
-                                                      infos[0].name, infos[0].missing));
+    throw Failure(ErrorCode::unsupported, sentence("no Vulkan device is usable: '", infos[0].name, "' lacks ",
+                                                   infos[0].missing, "; use the CPU backend"));
 }
 
 vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, std::uint32_t family, bool rayQuery) {

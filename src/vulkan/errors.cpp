@@ -1,6 +1,6 @@
 #include "vulkan/errors.h"
 
-#include <fmt/format.h>
+#include "core/sentence.h"
 
 namespace probegi::vulkan {
 
@@ -22,7 +22,7 @@ Error currentError(const char* doing) noexcept {
         return {failure.code, failure.what()};
     } catch (const vk::DeviceLostError&) {
         return {ErrorCode::deviceLost,
-                fmt::format("the GPU was lost while {}; make a new device, or use the CPU backend", doing)};
+                sentence("the GPU was lost while ", doing, "; make a new device, or use the CPU backend")};
     } catch (const vk::IncompatibleDriverError&) {
         return {
             ErrorCode::unsupported,
@@ -30,21 +30,21 @@ Error currentError(const char* doing) noexcept {
             "CPU backend"};
     } catch (const vk::OutOfDeviceMemoryError&) {
         return {ErrorCode::outOfMemory,
-                fmt::format("the GPU has no memory left for {}; use fewer probes or a smaller scene", doing)};
+                sentence("the GPU has no memory left for ", doing, "; use fewer probes or a smaller scene")};
     } catch (const vk::OutOfHostMemoryError&) {
-        return {ErrorCode::outOfMemory, fmt::format("no memory left for {}", doing)};
+        return {ErrorCode::outOfMemory, sentence("no memory left for ", doing)};
     } catch (const vk::SystemError& error) {
         if (meansNoMemory(vk::Result(error.code().value())))
             return {ErrorCode::outOfMemory,
-                    fmt::format("the Vulkan driver has no room left for {}: {}", doing, error.what())};
-        return {ErrorCode::unsupported, fmt::format("the Vulkan driver failed while {}: {}", doing, error.what())};
+                    sentence("the Vulkan driver has no room left for ", doing, ": ", error.what())};
+        return {ErrorCode::unsupported, sentence("the Vulkan driver failed while ", doing, ": ", error.what())};
     } catch (const std::bad_alloc&) {
-        return {ErrorCode::outOfMemory, fmt::format("no memory left for {}", doing)};
+        return {ErrorCode::outOfMemory, sentence("no memory left for ", doing)};
     } catch (const std::exception& error) {
-        return {ErrorCode::unsupported, fmt::format("failed while {}: {}", doing, error.what())};
+        return {ErrorCode::unsupported, sentence("failed while ", doing, ": ", error.what())};
     } catch (...) {
         // Callbacks of an engine's may throw anything.
-        return {ErrorCode::unsupported, fmt::format("failed while {}", doing)};
+        return {ErrorCode::unsupported, sentence("failed while ", doing)};
     }
 }
 

@@ -29,7 +29,7 @@ auto guarded(const char* doing, const Body& body) noexcept -> Result<std::invoke
             return body();
         }
     } catch (...) {
-        return tl::unexpected(currentError(doing));
+        return currentError(doing);
     }
 }
 

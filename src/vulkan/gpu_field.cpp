@@ -50,7 +50,7 @@ double sumOf(const std::vector<PassTime>& passes, const char* name) {
 GpuField::GpuField(const Context& context, const Device& device, const FieldDesc& desc)
     : m_context(context), m_device(device), m_passes(device, desc), m_exchange(device) {
     m_profiler.emplace(orThrow(Profiler::create(device)));
-    submitAndWait(device, [&](const Recorder& recorder) { m_passes.recordClear(recorder); });
+    submitAndWait(device, [&](const Recorder& recorder) { m_passes.recordClear(recorder, desc.guard); });
 }
 
 template <class Body>
@@ -64,7 +64,7 @@ const GpuLighting& GpuField::uploaded(const Lighting& lighting) const {
     if (m_lightingSource && sameLighting(*m_lightingSource, lighting)) return *m_lighting;
     m_lightingSource.reset();
     m_lighting.emplace(orThrow(GpuLighting::create(m_device, lighting)));
-    submitAndWait(m_device, [&](const Recorder& recorder) { m_lighting->recordUpload(recorder.commands()); });
+    submitAndWait(m_device, [&](const Recorder& recorder) { orThrow(m_lighting->recordUpload(recorder.commands())); });
     m_lighting->releaseStaging();
     m_lightingSource = lighting;
     return *m_lighting;
@@ -128,14 +128,14 @@ Result<UpdateTimes> GpuField::update(const UpdateFrame& frame, const Tracer& tra
         BounceQuery bounces;
         if (frame.bounces)
             bounces = [&](std::span<const FieldQuery> queries, std::span<glm::vec3> out) {
-                orThrow(irradiance(frame.desc, queries, out));
+                return irradiance(frame.desc, queries, out);
             };
         TraceTimes sums;
         const EmitterSearch emitters = emitterSearch(frame.desc, tracer, frame.raySeed);
-        traceProbes(m_context, frame.desc.grid, {frame.directions, frame.fixedDirections}, tracer, lighting, bounces,
-                    emitters, {m_rayData, m_fixedRays}, sums);
         m_emitterLights.resize(m_passes.layout().probes * std::size_t(emitters.looks));
-        if (emitters) lookAtEmitters(m_context, frame.desc.grid, emitters, tracer, m_emitterLights, sums);
+        orThrow(traceProbes(m_context, frame.desc.grid, {frame.directions, frame.fixedDirections}, tracer, lighting,
+                            bounces, emitters, {m_rayData, m_fixedRays}, sums));
+        if (emitters) orThrow(lookAtEmitters(m_context, frame.desc.grid, emitters, tracer, m_emitterLights, sums));
         const double traced = millisecondsSince(start);
         const double sum = std::max(1.0, double(sums.traceNs + sums.shadeNs));
         const std::lock_guard lock(m_mutex);
@@ -236,7 +236,7 @@ std::vector<PassTime> GpuField::passTimes() const {
 }
 
 Result<Field> makeField(const Context& context, const Device& device, const FieldDesc& desc) {
-    if (auto ok = validateFieldDesc(desc); !ok) return tl::unexpected(ok.error());
+    if (auto ok = validateFieldDesc(desc); !ok) return ok.error();
     return guarded("making a field",
                    [&] { return makeFieldOn(context, desc, std::make_unique<GpuField>(context, device, desc)); });
 }

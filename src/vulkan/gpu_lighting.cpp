@@ -1,5 +1,4 @@
-#include <fmt/format.h>
-
+#include "core/sentence.h"
 #include "vulkan/errors.h"
 #include "vulkan/gpu_lighting_impl.h"
 #include "vulkan/scene_data.h"
@@ -39,10 +38,13 @@ Result<GpuLighting> GpuLighting::create(const Device& device, const Lighting& li
                    [&] { return GpuLighting(std::make_unique<Impl>(device, lighting, maxLights)); });
 }
 
-void GpuLighting::recordUpload(VkCommandBuffer commands) {
-    const Recorder recorder(m_impl->device.impl(), commands);
-    m_impl->staging.record(recorder);
-    recorder.transferToCompute();
+Result<void> GpuLighting::recordUpload(VkCommandBuffer commands) {
+    if (m_impl->staging.released()) return fail(ErrorCode::invalidArgument, kNothingToUpload);
+    return guarded("recording the upload of lights", [&] {
+        const Recorder recorder(m_impl->device.impl(), commands);
+        m_impl->staging.record(recorder);
+        recorder.transferToCompute();
+    });
 }
 
 void GpuLighting::releaseStaging() noexcept {
@@ -52,8 +54,9 @@ void GpuLighting::releaseStaging() noexcept {
 
 Result<void> GpuLighting::recordUpdate(VkCommandBuffer commands, const Lighting& lighting) {
     if (int(lighting.lights.size()) > m_impl->capacity)
-        return fail(ErrorCode::invalidArgument, fmt::format("{} lights do not fit; there is room for {} (maxLights)",
-                                                            lighting.lights.size(), m_impl->capacity));
+        return fail(ErrorCode::invalidArgument,
+                    sentence(lighting.lights.size(), " lights do not fit; there is room for ", m_impl->capacity,
+                             " (maxLights)"));
     return guarded("updating lights", [&] {
         const Recorder recorder(m_impl->device.impl(), commands);
         const std::vector<kernels::GpuLight> lights = packLights(lighting.lights);

@@ -111,7 +111,7 @@ private:
 /// Lights of one picture.
 GpuLighting uploadedLighting(const Device& device, const Lighting& lighting) {
     GpuLighting result = orThrow(GpuLighting::create(device, lighting));
-    submitAndWait(device, [&](const Recorder& recorder) { result.recordUpload(recorder.commands()); });
+    submitAndWait(device, [&](const Recorder& recorder) { orThrow(result.recordUpload(recorder.commands())); });
     result.releaseStaging();
     return result;
 }
@@ -120,7 +120,7 @@ GpuLighting uploadedLighting(const Device& device, const Lighting& lighting) {
 
 Result<RenderedPicture> renderPicture(const Context& context, const Device& device, const Tracer& tracer,
                                       const Lighting& lighting, const Field* field, const PictureDesc& desc) {
-    if (auto ok = validatePictureDesc(desc); !ok) return tl::unexpected(ok.error());
+    if (auto ok = validatePictureDesc(desc); !ok) return ok.error();
     return guarded("rendering", [&] {
         const auto start = std::chrono::steady_clock::now();
         const GpuTracer& gpuTracer = onDevice<GpuTracer>(device, tracer, "tracer");

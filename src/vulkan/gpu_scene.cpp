@@ -1,7 +1,8 @@
-#include <fmt/format.h>
+#include <map>
 
 #include "bvh/binary_tree.h"
 #include "bvh/wide_bvh.h"
+#include "core/sentence.h"
 #include "surface/lighting.h"
 #include "vulkan/errors.h"
 #include "vulkan/gpu_scene_impl.h"
@@ -127,12 +128,15 @@ Result<GpuScene> GpuScene::create(const Context& context, const Device& device, 
                    [&] { return GpuScene(std::make_unique<Impl>(context, device, scene, pose, desc)); });
 }
 
-void GpuScene::recordUpload(VkCommandBuffer commands) {
-    const Recorder recorder(m_impl->device.impl(), commands);
-    m_impl->staging.record(recorder);
-    recorder.write(m_impl->constantsBuffer, bytesOf(m_impl->constants()));
-    m_impl->tracer->recordBuild(recorder);
-    recorder.orderAll();
+Result<void> GpuScene::recordUpload(VkCommandBuffer commands) {
+    if (m_impl->staging.released()) return fail(ErrorCode::invalidArgument, kNothingToUpload);
+    return guarded("recording the upload of a scene", [&] {
+        const Recorder recorder(m_impl->device.impl(), commands);
+        m_impl->staging.record(recorder);
+        recorder.write(m_impl->constantsBuffer, bytesOf(m_impl->constants()));
+        m_impl->tracer->recordBuild(recorder);
+        recorder.orderAll();
+    });
 }
 
 void GpuScene::releaseStaging() noexcept {
@@ -143,7 +147,7 @@ void GpuScene::releaseStaging() noexcept {
 
 Result<void> GpuScene::recordPose(VkCommandBuffer commands, const ScenePose& pose) {
     auto placements = movedPlacements(m_impl->placements, pose);
-    if (!placements) return tl::unexpected(placements.error());
+    if (!placements) return placements.error();
     return guarded("moving instances", [&] {
         std::vector<kernels::GpuInstance> instances;
         for (const Placement& placement : *placements) instances.push_back(packInstance(placement));

@@ -18,7 +18,7 @@ constexpr std::size_t kRaysPerPiece = std::size_t(1) << 20;
 GpuScene uploaded(const Context& context, const Device& device, const Scene& scene, const ScenePose& pose,
                   const GpuSceneDesc& desc) {
     GpuScene result = orThrow(GpuScene::create(context, device, scene, pose, desc));
-    submitAndWait(device, [&](const Recorder& recorder) { result.recordUpload(recorder.commands()); });
+    submitAndWait(device, [&](const Recorder& recorder) { orThrow(result.recordUpload(recorder.commands())); });
     result.releaseStaging();
     return result;
 }
@@ -38,15 +38,13 @@ Surface surfaceOf(const kernels::GpuSurface& s) {
     return surface;
 }
 
-// Calls piece(first, count) over 0..count. Errors go to the log: the interface has no place for them, and what follows
-// a lost device fails with a Result.
+// Calls piece(first, count) over 0..count.
 template <class Piece>
-void inPieces(const Device& device, std::size_t count, const Piece& piece) {
-    const auto done = guarded("tracing rays", [&] {
+Result<void> inPieces(std::size_t count, const Piece& piece) {
+    return guarded("tracing rays", [&] {
         for (std::size_t first = 0; first < count; first += kRaysPerPiece)
             piece(first, std::min(kRaysPerPiece, count - first));
     });
-    if (!done) device.impl().warn(done.error().message);
 }
 
 }  // namespace
@@ -59,11 +57,10 @@ const EmitterSet* GpuTracer::emitters() const {
     return &m_scene.impl().emitters;
 }
 
-void GpuTracer::closestHits(std::span<const Ray> rays, std::span<Hit> hits) const {
+Result<void> GpuTracer::closestHits(std::span<const Ray> rays, std::span<Hit> hits) const {
     assert(rays.size() == hits.size());
-    std::fill(hits.begin(), hits.end(), Hit());
     const std::lock_guard lock(m_mutex);
-    inPieces(m_device, rays.size(), [&](std::size_t first, std::size_t count) {
+    return inPieces(rays.size(), [&](std::size_t first, std::size_t count) {
         m_exchange.begin(count * sizeof(Ray), count * sizeof(Hit));
         kernels::RaysPush push{.rays = packAddress(m_exchange.add(rays.subspan(first, count))),
                                .hits = packAddress(m_exchange.out()),
@@ -80,11 +77,10 @@ void GpuTracer::closestHits(std::span<const Ray> rays, std::span<Hit> hits) cons
     });
 }
 
-void GpuTracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
+Result<void> GpuTracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
     assert(rays.size() == blocked.size());
-    std::fill(blocked.begin(), blocked.end(), std::uint8_t(0));
     const std::lock_guard lock(m_mutex);
-    inPieces(m_device, rays.size(), [&](std::size_t first, std::size_t count) {
+    return inPieces(rays.size(), [&](std::size_t first, std::size_t count) {
         m_exchange.begin(count * sizeof(Ray), count * sizeof(std::uint32_t));
         kernels::RaysPush push{.rays = packAddress(m_exchange.add(rays.subspan(first, count))),
                                .hits = {},
@@ -102,10 +98,10 @@ void GpuTracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> bloc
     });
 }
 
-void GpuTracer::surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const {
+Result<void> GpuTracer::surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const {
     assert(rays.size() == hits.size() && rays.size() == out.size());
     const std::lock_guard lock(m_mutex);
-    inPieces(m_device, rays.size(), [&](std::size_t first, std::size_t count) {
+    return inPieces(rays.size(), [&](std::size_t first, std::size_t count) {
         m_exchange.begin(count * (sizeof(Ray) + sizeof(Hit)), count * sizeof(kernels::GpuSurface));
         kernels::RaysPush push{.rays = packAddress(m_exchange.add(rays.subspan(first, count))),
                                .hits = packAddress(m_exchange.add(hits.subspan(first, count))),

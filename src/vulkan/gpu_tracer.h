@@ -14,9 +14,9 @@ public:
     GpuTracer(const Context& context, const Device& device, const Scene& scene, const ScenePose& pose,
               const GpuSceneDesc& desc);
 
-    void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override;
-    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override;
-    void surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const override;
+    Result<void> closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override;
+    Result<void> occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override;
+    Result<void> surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const override;
     Bounds bounds() const override { return m_scene.bounds(); }
     const EmitterSet* emitters() const override;
 

@@ -1,19 +1,25 @@
 #include "vulkan/pipelines.h"
 
-#include <fmt/format.h>
-
 #include <cstring>
 #include <fstream>
+#include <iomanip>
 #include <random>
 #include <sstream>
 #include <vector>
 
+#include "core/sentence.h"
 #include "vulkan/errors.h"
 #include "vulkan/shader_code.h"
 
 namespace probegi::vulkan {
 
 namespace {
+
+std::string hex(std::uint32_t value, int digits) {
+    std::ostringstream out;
+    out << std::hex << std::setw(digits) << std::setfill('0') << value;
+    return out.str();
+}
 
 // Drivers check the header of their pipeline cache, but not all survive a damaged body: a sum over it goes before it.
 struct CacheHeader {
@@ -33,7 +39,7 @@ std::uint64_t checksum(std::span<const std::uint8_t> data) {
 std::filesystem::path cacheFile(const vk::raii::PhysicalDevice& physical, const std::filesystem::path& folder) {
     if (folder.empty()) return {};
     std::string name = "pipelines-";
-    for (const std::uint8_t byte : physical.getProperties().pipelineCacheUUID) name += fmt::format("{:02x}", byte);
+    for (const std::uint8_t byte : physical.getProperties().pipelineCacheUUID) name += hex(byte, 2);
     return folder / (name + ".bin");
 }
 
@@ -52,8 +58,8 @@ std::vector<std::uint8_t> readCache(const std::filesystem::path& file, std::stri
     }
     if (body.empty() || std::memcmp(header.magic, CacheHeader().magic, sizeof(header.magic)) != 0 ||
         header.bytes != body.size() || header.sum != checksum(body)) {
-        warning = fmt::format("the shader cache '{}' is damaged and was ignored; it will be written anew",
-                              file.generic_string());
+        warning = sentence("the shader cache '", file.generic_string(),
+                           "' is damaged and was ignored; it will be written anew");
         return {};
     }
     return body;
@@ -113,8 +119,8 @@ PipelineStore::PipelineStore(const vk::raii::PhysicalDevice& physical, const vk:
     : m_device(device), m_layout(device, rayQuery), m_file(cacheFile(physical, folder)), m_cache(nullptr) {
     std::vector<std::uint8_t> data = readCache(m_file, warning);
     if (!data.empty() && !isOf(physical, data)) {
-        warning = fmt::format("the shader cache '{}' is of another driver and was ignored; it will be written anew",
-                              m_file.generic_string());
+        warning = sentence("the shader cache '", m_file.generic_string(),
+                           "' is of another driver and was ignored; it will be written anew");
         data.clear();
     }
     m_savedSum = checksum(data);
@@ -123,11 +129,11 @@ PipelineStore::PipelineStore(const vk::raii::PhysicalDevice& physical, const vk:
 
 vk::Pipeline PipelineStore::get(const std::string& shader, std::span<const std::uint32_t> constants) {
     std::string key = shader;
-    for (const std::uint32_t constant : constants) key += fmt::format("/{}", constant);
+    for (const std::uint32_t constant : constants) key += sentence("/", constant);
     if (const auto found = m_pipelines.find(key); found != m_pipelines.end()) return *found->second;
 
     const std::span<const std::uint32_t> code = shaderCode(shader);
-    if (code.empty()) throw Failure(ErrorCode::unsupported, fmt::format("there is no shader '{}'", shader));
+    if (code.empty()) throw Failure(ErrorCode::unsupported, sentence("there is no shader '", shader, "'"));
     const vk::raii::ShaderModule module(m_device, vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
     std::vector<vk::SpecializationMapEntry> entries;
     for (std::uint32_t i = 0; i < constants.size(); ++i) entries.emplace_back(i, 4 * i, sizeof(std::uint32_t));
@@ -150,7 +156,7 @@ void PipelineStore::save() {
     std::filesystem::create_directories(m_file.parent_path(), ignored);
     // A name of its own: several processes may end at once.
     std::filesystem::path temporary = m_file;
-    temporary += fmt::format(".{:08x}.tmp", std::random_device()());
+    temporary += sentence(".", hex(std::random_device()(), 8), ".tmp");
     std::ofstream out(temporary, std::ios::binary);
     out.write(reinterpret_cast<const char*>(&header), sizeof(header));
     out.write(reinterpret_cast<const char*>(body.data()), std::streamsize(body.size()));
@@ -159,9 +165,9 @@ void PipelineStore::save() {
     if (out) std::filesystem::rename(temporary, m_file, error);
     if (!out || error) {
         std::filesystem::remove(temporary, ignored);
-        throw Failure(ErrorCode::writeFailed, fmt::format("the shader cache '{}' could not be written; shaders will "
-                                                          "be compiled anew next time",
-                                                          m_file.generic_string()));
+        throw Failure(ErrorCode::writeFailed,
+                      sentence("the shader cache '", m_file.generic_string(),
+                               "' could not be written; shaders will be compiled anew next time"));
     }
     m_changed = false;
     m_savedSum = header.sum;

@@ -1,6 +1,24 @@
+#include "core/sentence.h"
 #include "vulkan/probe_volume_impl.h"
 
 namespace probegi::vulkan {
+
+namespace {
+
+// Whether a range of the caller's holds `count` values of `size` bytes; `what` names it.
+Result<void> checkRange(const BufferRange& range, const char* what, std::size_t count, std::size_t size) {
+    const std::size_t needed = count * size;
+    if (range.bytes < needed)
+        return fail(ErrorCode::invalidArgument,
+                    sentence(what, " has ", range.bytes, " bytes; all rays of all probes need ", needed, " of ", size,
+                             " each"));
+    if (range.address == 0 || range.address % 4 != 0)
+        return fail(ErrorCode::invalidArgument,
+                    sentence("the address of ", what, " must be a multiple of 4, and not 0"));
+    return {};
+}
+
+}  // namespace
 
 ProbeVolume::ProbeVolume(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
 ProbeVolume::ProbeVolume(ProbeVolume&&) noexcept = default;
@@ -8,7 +26,7 @@ ProbeVolume& ProbeVolume::operator=(ProbeVolume&&) noexcept = default;
 ProbeVolume::~ProbeVolume() = default;
 
 Result<ProbeVolume> ProbeVolume::create(const Device& device, const FieldDesc& desc) {
-    if (auto ok = validateFieldDesc(desc); !ok) return tl::unexpected(ok.error());
+    if (auto ok = validateFieldDesc(desc); !ok) return ok.error();
     return guarded("making a volume of probes", [&] { return ProbeVolume(std::make_unique<Impl>(device, desc)); });
 }
 
@@ -34,9 +52,18 @@ void ProbeVolume::setGuard(LeakGuard guard) noexcept {
     m_impl->books.setGuard(guard);
 }
 
-void ProbeVolume::recordClear(VkCommandBuffer commands) {
-    m_impl->passes.recordClear({m_impl->passes.device().impl(), commands});
-    m_impl->books = FrameBooks(m_impl->books.desc());
+Result<void> ProbeVolume::recordGuard(VkCommandBuffer commands) {
+    return m_impl->recorded("recording a leak guard", [&] {
+        m_impl->passes.recordGuard({m_impl->passes.device().impl(), commands}, m_impl->books.desc());
+    });
+}
+
+Result<void> ProbeVolume::recordClear(VkCommandBuffer commands) {
+    return m_impl->recorded("recording the clearing of probes", [&] {
+        FrameBooks cleared(m_impl->books.desc());
+        m_impl->passes.recordClear({m_impl->passes.device().impl(), commands}, m_impl->books.desc().guard);
+        m_impl->books = std::move(cleared);
+    });
 }
 
 Result<void> ProbeVolume::recordUpdate(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,
@@ -48,17 +75,23 @@ Result<void> ProbeVolume::recordUpdate(VkCommandBuffer commands, const GpuScene&
     });
 }
 
-Result<void> ProbeVolume::recordUpdate(VkCommandBuffer commands, VkDeviceAddress rayData, Profiler* profiler) {
-    return recordUpdate(commands, rayData, 0, profiler);
+Result<void> ProbeVolume::recordUpdate(VkCommandBuffer commands, const BufferRange& rayData, Profiler* profiler) {
+    return recordUpdate(commands, rayData, BufferRange(), profiler);
 }
 
-Result<void> ProbeVolume::recordUpdate(VkCommandBuffer commands, VkDeviceAddress rayData, VkDeviceAddress fixedRays,
-                                       Profiler* profiler) {
+Result<void> ProbeVolume::recordUpdate(VkCommandBuffer commands, const BufferRange& rayData,
+                                       const BufferRange& fixedRays, Profiler* profiler) {
+    FrameBooks& books = m_impl->books;
+    const std::size_t probes = m_impl->passes.layout().probes;
+    if (auto ok = checkRange(rayData, "rayData", probes * books.rayDirections().size(), sizeof(RayDatum)); !ok)
+        return ok;
+    const std::size_t fixed = probes * books.fixedRayDirections().size();
+    if (!fixedRays.empty())
+        if (auto ok = checkRange(fixedRays, "fixedRays", fixed, sizeof(FixedRayDatum)); !ok) return ok;
     return m_impl->recorded("recording an update", [&] {
-        FrameBooks& books = m_impl->books;
-        const UpdateFrame frame = fixedRays ? books.comingUpdate() : books.comingUpdateWithoutFixedRays();
-        m_impl->passes.recordUpdate({m_impl->passes.device().impl(), commands}, frame, RayAddresses{rayData, fixedRays},
-                                    profiler);
+        const UpdateFrame frame = fixedRays.empty() ? books.comingUpdateWithoutFixedRays() : books.comingUpdate();
+        m_impl->passes.recordUpdate({m_impl->passes.device().impl(), commands}, frame,
+                                    RayAddresses{rayData.address, fixedRays.address}, profiler);
         books.advance();
     });
 }

@@ -26,7 +26,8 @@ public:
     /// The desc must be valid. Failure: unsupported (too many probes along an axis).
     VolumePasses(const Device& device, const FieldDesc& desc);
 
-    void recordClear(const Recorder& recorder);
+    /// Forgets what the probes hold. `guard` is that of the shaders that read the volume from now on.
+    void recordClear(const Recorder& recorder, LeakGuard guard);
     /// Traces and shades the rays of all probes into rayData(), then blends it.
     void recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
                       const GpuLighting& lighting, Profiler* profiler);

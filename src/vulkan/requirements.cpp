@@ -1,17 +1,17 @@
 #include "vulkan/requirements.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string_view>
+
+#include "core/sentence.h"
 
 namespace probegi::vulkan {
 
 namespace {
 
 std::string versionText(std::uint32_t version) {
-    return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
-                       VK_API_VERSION_PATCH(version));
+    return sentence(VK_API_VERSION_MAJOR(version), ".", VK_API_VERSION_MINOR(version), ".",
+                    VK_API_VERSION_PATCH(version));
 }
 
 std::string typeText(vk::PhysicalDeviceType type) {
@@ -139,11 +139,11 @@ Features enabledFeatures(const VkDeviceCreateInfo& info) {
 
 std::string missingBesidesFeatures(const vk::raii::PhysicalDevice& device) {
     const std::uint32_t version = device.getProperties().apiVersion;
-    if (version < VK_API_VERSION_1_3) return fmt::format("Vulkan 1.3 (it has {})", versionText(version));
+    if (version < VK_API_VERSION_1_3) return sentence("Vulkan 1.3 (it has ", versionText(version), ")");
     if (!computeFamily(device)) return "a queue family with compute";
     for (const vk::Format format : {kIrradianceFormat, kVisibilityFormat})
         if (!formatWorks(device, format))
-            return fmt::format("the format {} as storage image and linearly filtered image", vk::to_string(format));
+            return sentence("the format ", vk::to_string(format), " as storage image and linearly filtered image");
     return {};
 }
 
@@ -166,7 +166,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& device, int index) {
     if (properties.apiVersion >= VK_API_VERSION_1_2) {
         const auto driver = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
                                 .get<vk::PhysicalDeviceDriverProperties>();
-        info.driver = fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data());
+        info.driver = sentence(driver.driverName.data(), " ", driver.driverInfo.data());
     }
     const Features features = availableFeatures(device);
     info.rayQuery = features.canRayQuery();

@@ -6,6 +6,10 @@
 
 namespace probegi::vulkan {
 
+/// The error of an upload that is recorded too late.
+inline constexpr const char* kNothingToUpload =
+    "the upload was recorded after releaseStaging(), when there is nothing left to copy; record it once, before";
+
 /// Bytes on their way to buffers: collected, copied into one upload buffer, recorded as copies, released.
 class Staging {
 public:
@@ -22,6 +26,8 @@ public:
     void fill(const Device::Impl& device);
     void record(const Recorder& recorder) const;
     void release() noexcept { *this = Staging(); }
+    /// Nothing is left to record, or nothing was ever added.
+    bool released() const noexcept { return m_copies.empty(); }
 
 private:
     struct Copy {

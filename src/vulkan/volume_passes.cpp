@@ -1,7 +1,6 @@
-#include <fmt/format.h>
-
 #include <limits>
 
+#include "core/sentence.h"
 #include "kernels/gpu_passes.h"
 #include "kernels/probe_query.h"
 #include "kernels/solid_probe.h"
@@ -30,13 +29,13 @@ Image makeAtlas(const Device& device, const char* name, vk::Format format, glm::
     const std::int64_t tile = texels + 2;
     if (counts.x * tile > limits.maxImageDimension2D || counts.y * tile > limits.maxImageDimension2D)
         throw Failure(ErrorCode::unsupported,
-                      fmt::format("{}x{} probes along x and y do not fit into this device's images; with maps of {} "
-                                  "texels each axis may have {}",
-                                  counts.x, counts.y, texels, limits.maxImageDimension2D / tile));
+                      sentence(counts.x, "x", counts.y,
+                               " probes along x and y do not fit into this device's images; with maps of ", texels,
+                               " texels each axis may have ", limits.maxImageDimension2D / tile));
     if (std::uint32_t(counts.z) > limits.maxImageArrayLayers)
-        throw Failure(ErrorCode::unsupported, fmt::format("{} probes along z do not fit into this device's images; it "
-                                                          "has {} layers",
-                                                          counts.z, limits.maxImageArrayLayers));
+        throw Failure(ErrorCode::unsupported,
+                      sentence(counts.z, " probes along z do not fit into this device's images; it has ",
+                               limits.maxImageArrayLayers, " layers"));
     return {device.impl(),
             name,
             format,
@@ -49,11 +48,9 @@ FieldLayout checkedLayout(const FieldDesc& desc) {
     const FieldLayout layout(desc);
     constexpr std::size_t kMost = std::size_t(std::numeric_limits<std::int32_t>::max());
     if (layout.probes * layout.rays > kMost)
-        throw Failure(
-            ErrorCode::unsupported,
-            fmt::format("{} probes with {} rays each are more rays than the GPU backend counts, {}; use fewer "
-                        "probes or raysPerProbe",
-                        layout.probes, layout.rays, kMost));
+        throw Failure(ErrorCode::unsupported, sentence(layout.probes, " probes with ", layout.rays,
+                                                       " rays each are more rays than the GPU backend counts, ", kMost,
+                                                       "; use fewer probes or raysPerProbe"));
     return layout;
 }
 
@@ -166,7 +163,7 @@ void VolumePasses::makeRayBuffers(int looks) {
     m_fixedRays = std::move(fixedRays);
 }
 
-void VolumePasses::recordClear(const Recorder& recorder) {
+void VolumePasses::recordClear(const Recorder& recorder, LeakGuard guard) {
     // After whatever used the probes before: their content is dropped, but a layout change is a write too.
     recorder.orderAll();
     const auto used = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite;
@@ -185,8 +182,8 @@ void VolumePasses::recordClear(const Recorder& recorder) {
     recorder.fill(m_states, 0);
     recorder.fill(m_filters, 0);
     recorder.fill(m_sides, 0);
-    m_recordedGuard = m_desc.guard;
-    recorder.write(m_constants, bytesOf(constants(m_desc.guard)));
+    m_recordedGuard = guard;
+    recorder.write(m_constants, bytesOf(constants(guard)));
     recorder.orderAll();
 }
 

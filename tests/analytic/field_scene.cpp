@@ -56,9 +56,9 @@ std::vector<FieldQuery> FieldScene::surfaceQueries(int count, float mostBacks) c
         ray.direction = {r * std::cos(phi), r * std::sin(phi), z};
         Hit hit;
         Surface surface;
-        tracer->closestHits({&ray, 1}, {&hit, 1});
+        tracer->closestHits({&ray, 1}, {&hit, 1}).value();
         if (!hit.valid()) continue;
-        tracer->surfaces({&ray, 1}, {&hit, 1}, {&surface, 1});
+        tracer->surfaces({&ray, 1}, {&hit, 1}, {&surface, 1}).value();
         if (!surface.backface) queries.push_back({surface.position, surface.shadingNormal, -ray.direction});
     }
     EXPECT_EQ(int(queries.size()), count);

@@ -199,6 +199,35 @@ TEST_P(BackendQuery, onlyTheMomentsGuardLooksAtDistances) {
     EXPECT_GT(irradianceIn(LeakGuard::moments, 5.0f), 2.0f * irradianceIn(LeakGuard::moments, 0.05f));
 }
 
+// Zero stands for the normal: on a wall as on a floor, nobody has to name a viewer.
+TEST_P(BackendQuery, aViewerOfZeroIsTheNormal) {
+    for (const FieldRules rules : {FieldRules::measured, FieldRules::paper}) {
+        FieldDesc desc = smallDesc();
+        desc.rules = rules;
+        const auto pair = randomPair(desc);
+        std::vector<FieldQuery> named = randomQueries(500), unnamed;
+        for (FieldQuery& q : named) {
+            unnamed.push_back({.position = q.position, .normal = q.normal});
+            q.toViewer = q.normal;
+        }
+        EXPECT_EQ(ask(pair.first, unnamed), ask(pair.first, named));
+        for (FieldQuery& q : named) q.toViewer = {0, 1, 0};
+        EXPECT_NE(ask(pair.first, unnamed), ask(pair.first, named));
+    }
+}
+
+TEST_P(BackendQuery, spansOfDifferentLengthsAreRefused) {
+    const Field field = makeField(smallDesc());
+    const std::vector<FieldQuery> queries(5);
+    for (const std::size_t room : {0, 4, 6}) {
+        std::vector<glm::vec3> answers(room);
+        const auto asked = field.irradiance(queries, answers);
+        ASSERT_FALSE(asked);
+        EXPECT_EQ(asked.error().code, ErrorCode::invalidArgument);
+        EXPECT_NE(asked.error().message.find("5 queries"), std::string::npos) << asked.error().message;
+    }
+}
+
 TEST_P(BackendQuery, theGuardMayChangeBetweenQueries) {
     Field field = makeField(smallDesc());
     ASSERT_TRUE(field.update(randomData(field.desc(), 6)));

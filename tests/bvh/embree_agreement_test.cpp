@@ -45,7 +45,7 @@ bool atAnEdge(const Tracer& embree, const TracedWorld& world, const Ray& ray, co
         Ray turned = ray;
         turned.direction = glm::normalize(ray.direction + glm::vec3(turn(random), turn(random), turn(random)));
         Hit other;
-        embree.closestHits({&turned, 1}, {&other, 1});
+        embree.closestHits({&turned, 1}, {&other, 1}).value();
         const float tolerance = 1e-3f * std::max(1.0f, other.distance);
         if (other.valid() == ours.valid() && (!ours.valid() || std::abs(other.distance - ours.distance) < tolerance))
             return true;
@@ -71,7 +71,7 @@ Compared compare(const Scene& scene, std::size_t count, unsigned seed) {
     Compared result;
     while (result.rays < count) {
         for (Ray& ray : rays) ray = randomRay(random, embree->bounds());
-        embree->closestHits(rays, hits);
+        embree->closestHits(rays, hits).value();
         for (std::size_t i = 0; i < kBatch; ++i) {
             const Hit ours = closestHit(bvh.world(), rays[i]);
             result.hits += hits[i].valid() ? 1 : 0;
@@ -82,7 +82,7 @@ Compared compare(const Scene& scene, std::size_t count, unsigned seed) {
             result.unexplained += atAnEdge(*embree, bvh.world(), rays[i], ours, hits[i]) ? 0 : 1;
         }
         for (Ray& ray : rays) ray.far = 2.0f;
-        embree->occluded(rays, blocked);
+        embree->occluded(rays, blocked).value();
         for (std::size_t i = 0; i < kBatch; ++i)
             result.occlusion += occluded(bvh.world(), rays[i]) != (blocked[i] == 1) ? 1 : 0;
         result.rays += kBatch;

@@ -1,4 +1,5 @@
-# cmake -DBUILD=... -DEXAMPLES=... -DWORK=... -DCOMPILER=... -DLAUNCHER=... -DSANITIZE=... -DVERSION=... -DVULKAN=... -P run.cmake
+# cmake -DBUILD=... -DEXAMPLES=... -DWORK=... -DCOMPILER=... -DLAUNCHER=... -DSANITIZE=... -DVERSION=... -DVULKAN=...
+# [-DFILM="FRAMES HEIGHT"] -P run.cmake
 function(run)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
     message(STATUS "${output}")
@@ -20,10 +21,11 @@ file(COPY ${EXAMPLES}/ DESTINATION ${WORK}/source)
 run(${CMAKE_COMMAND} -S ${WORK}/source -B ${WORK}/build -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DCMAKE_CXX_FLAGS=${flags})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
-set(examples first_light own_tracer engine_loop moving_door)
+set(examples own_tracer first_light engine_loop moving_door)
 if(VULKAN)
-    list(APPEND examples vulkan_engine)
+    list(APPEND examples "vulkan_engine ${FILM}")
 endif()
 foreach(example ${examples})
-    run(${CMAKE_COMMAND} -E chdir ${WORK}/build ${WORK}/build/${example})
+    separate_arguments(arguments UNIX_COMMAND "${example}")
+    run(${CMAKE_COMMAND} -E chdir ${WORK}/build ${WORK}/build/${arguments})
 endforeach()

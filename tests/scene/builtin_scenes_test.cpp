@@ -52,8 +52,8 @@ struct Seen {
 
 Seen look(const Tracer& tracer, const std::vector<Ray>& rays) {
     Seen seen{std::vector<Hit>(rays.size()), std::vector<Surface>(rays.size())};
-    tracer.closestHits(rays, seen.hits);
-    tracer.surfaces(rays, seen.hits, seen.surfaces);
+    tracer.closestHits(rays, seen.hits).value();
+    tracer.surfaces(rays, seen.hits, seen.surfaces).value();
     return seen;
 }
 

@@ -24,15 +24,18 @@ public:
         grow(corner), grow(corner + edge1), grow(corner + edge2), grow(corner + edge1 + edge2);
     }
 
-    void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override {
+    Result<void> closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override {
         for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = closest(rays[i]);
+        return {};
     }
-    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override {
+    Result<void> occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override {
         for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = closest(rays[i]).valid() ? 1 : 0;
+        return {};
     }
-    void surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const override {
+    Result<void> surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const override {
         for (std::size_t i = 0; i < rays.size(); ++i)
             if (hits[i].valid()) out[i] = surface(rays[i], hits[i]);
+        return {};
     }
     Bounds bounds() const override { return m_bounds; }
 

@@ -69,7 +69,7 @@ std::vector<Ray> bundle(const Ray& ray) {
 bool explained(const Tracer& reference, const Ray& ray, const Hit& answer) {
     const std::vector<Ray> beside = bundle(ray);
     std::vector<Hit> hits(beside.size());
-    reference.closestHits(beside, hits);
+    reference.closestHits(beside, hits).value();
     for (const Hit& hit : hits)
         if (sameDistance(answer, hit, 10 * kRelative)) return true;
     return false;
@@ -80,7 +80,7 @@ bool occlusionExplained(const Tracer& reference, const Ray& ray, bool answer) {
         std::vector<Ray> beside = bundle(ray);
         for (Ray& r : beside) r.far *= length;
         std::vector<std::uint8_t> blocked(beside.size());
-        reference.occluded(beside, blocked);
+        reference.occluded(beside, blocked).value();
         for (const std::uint8_t b : blocked)
             if ((b == 1) == answer) return true;
     }
@@ -89,8 +89,8 @@ bool occlusionExplained(const Tracer& reference, const Ray& ray, bool answer) {
 
 void expectSameHits(const World& world, const std::vector<Ray>& rays) {
     std::vector<Hit> own(rays.size()), reference(rays.size());
-    world.tracer->closestHits(rays, own);
-    world.reference->closestHits(rays, reference);
+    world.tracer->closestHits(rays, own).value();
+    world.reference->closestHits(rays, reference).value();
     std::size_t outliers = 0, hits = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         hits += reference[i].valid() ? 1 : 0;
@@ -110,8 +110,8 @@ void expectSameOcclusion(const World& world, std::vector<Ray> rays) {
     const float size = glm::length(world.pose.bounds.size());
     for (Ray& ray : rays) ray.far = share(random) * size;
     std::vector<std::uint8_t> own(rays.size()), reference(rays.size());
-    world.tracer->occluded(rays, own);
-    world.reference->occluded(rays, reference);
+    world.tracer->occluded(rays, own).value();
+    world.reference->occluded(rays, reference).value();
     std::size_t outliers = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (own[i] == reference[i]) continue;
@@ -188,10 +188,10 @@ TEST_P(TracerAgreement, surfacesLookTheSame) {
     const std::vector<Ray> rays = randomRays(world.pose.bounds, 50000);
     std::vector<Hit> own(rays.size()), reference(rays.size());
     std::vector<Surface> ownSurfaces(rays.size()), surfaces(rays.size());
-    world.tracer->closestHits(rays, own);
-    world.tracer->surfaces(rays, own, ownSurfaces);
-    world.reference->closestHits(rays, reference);
-    world.reference->surfaces(rays, reference, surfaces);
+    world.tracer->closestHits(rays, own).value();
+    world.tracer->surfaces(rays, own, ownSurfaces).value();
+    world.reference->closestHits(rays, reference).value();
+    world.reference->surfaces(rays, reference, surfaces).value();
     std::size_t compared = 0, differing = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!reference[i].valid() || !sameDistance(own[i], reference[i], kRelative)) continue;

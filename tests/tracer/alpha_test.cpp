@@ -97,8 +97,8 @@ TEST_P(TracerAlphaMask, HolesInMixedBatches) {
     for (Ray& ray : rays) ray = {{uniform(random), 1, uniform(random)}, 0.0f, {0, -1, 0}, 3.0f};
     std::vector<Hit> hits(rays.size());
     std::vector<std::uint8_t> blocked(rays.size());
-    tracer->closestHits(rays, hits);
-    tracer->occluded(rays, blocked);
+    tracer->closestHits(rays, hits).value();
+    tracer->occluded(rays, blocked).value();
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const glm::vec3 cell = glm::floor((rays[i].origin + 1.0f) * 2.0f);
         const bool open = int(cell.x + cell.z) % 2 == 0;

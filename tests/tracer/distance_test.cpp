@@ -131,8 +131,8 @@ TEST_P(TracerDistance, EmptySceneHasZeroBoundsAndNoHits) {
         const Shot shot = shoot(*tracer, rayAlong({0, 1, 0}, {0, -1, 0}));
         EXPECT_FALSE(shot.hit.valid());
         EXPECT_FALSE(shot.blocked);
-        tracer->closestHits({}, {});
-        tracer->occluded({}, {});
+        tracer->closestHits({}, {}).value();
+        tracer->occluded({}, {}).value();
     }
 }
 
@@ -176,7 +176,7 @@ TEST_P(TracerDistance, NonFiniteRaysHitNothing) {
     rays[7].origin.y = nan;
     rays[9].far = nan;
     std::vector<Hit> hits(rays.size());
-    tracer->closestHits(rays, hits);
+    tracer->closestHits(rays, hits).value();
     for (std::size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(hits[i].valid(), i != 3 && i != 7 && i != 9) << i;
 }
 

@@ -109,9 +109,9 @@ TEST_P(TracerOracle, AgreesWithBruteForce) {
     std::vector<Hit> hits(rays.size());
     std::vector<Surface> surfaces(rays.size());
     std::vector<std::uint8_t> blocked(rays.size());
-    tracer->closestHits(rays, hits);
-    tracer->surfaces(rays, hits, surfaces);
-    tracer->occluded(rays, blocked);
+    tracer->closestHits(rays, hits).value();
+    tracer->surfaces(rays, hits, surfaces).value();
+    tracer->occluded(rays, blocked).value();
     int compared = 0, hit = 0, backfaces = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Nearest expected = bruteForce(s, rays[i]);
@@ -139,7 +139,7 @@ TEST(EmbreeTracerOracle, SharedMeshesAreInstances) {
     const auto tracer = trace(tracerMakers()[0], s);
     const std::vector<Ray> rays = randomRays(1000);
     std::vector<Hit> hits(rays.size());
-    tracer->closestHits(rays, hits);
+    tracer->closestHits(rays, hits).value();
     int instanced = 0, merged = 0;
     for (const Hit& hit : hits) {
         if (!hit.valid()) continue;
@@ -159,8 +159,8 @@ TEST_P(TracerOracle, ARayDoesNotDependOnItsBatch) {
         rays[i] = rayAlong({0, 0, 5}, {-0.3f + 0.002f * float(i - 400), 0.1f, -1});
     std::vector<Hit> together(rays.size());
     std::vector<std::uint8_t> blocked(rays.size());
-    tracer->closestHits(rays, together);
-    tracer->occluded(rays, blocked);
+    tracer->closestHits(rays, together).value();
+    tracer->occluded(rays, blocked).value();
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Shot alone = shoot(*tracer, rays[i]);
         EXPECT_EQ(alone.hit.primitive, together[i].primitive) << i;
@@ -177,8 +177,8 @@ TEST_P(TracerOracle, TheBuildDoesNotDependOnThreads) {
     const auto four = trace(GetParam(), s, 4);
     const std::vector<Ray> rays = randomRays(2000);
     std::vector<Hit> a(rays.size()), b(rays.size());
-    one->closestHits(rays, a);
-    four->closestHits(rays, b);
+    one->closestHits(rays, a).value();
+    four->closestHits(rays, b).value();
     EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(Hit)), 0);
 }
 

@@ -42,8 +42,8 @@ struct Walk {
         for (Ray& ray : rays) ray = rayAlong(start, randomDirection(random));
     }
     void step(const Tracer& tracer, float offset, std::mt19937& random) {
-        tracer.closestHits(rays, hits);
-        tracer.surfaces(rays, hits, surfaces);
+        tracer.closestHits(rays, hits).value();
+        tracer.surfaces(rays, hits, surfaces).value();
         for (std::size_t i = 0; i < rays.size(); ++i) {
             ++steps;
             escaped += hits[i].valid() ? 0 : 1;

@@ -269,8 +269,8 @@ TEST_P(TracerSurface, MissedRaysLeaveTheirEntry) {
     Hit hits[2];
     Surface surfaces[2];
     surfaces[0].position = {7, 7, 7};
-    tracer->closestHits(rays, hits);
-    tracer->surfaces(rays, hits, surfaces);
+    tracer->closestHits(rays, hits).value();
+    tracer->surfaces(rays, hits, surfaces).value();
     EXPECT_EQ(surfaces[0].position, glm::vec3(7));
     EXPECT_EQ(surfaces[1].position.y, 0.0f);
 }

@@ -19,7 +19,7 @@ TEST_P(TracerThreads, ManyAtOnceGetTheSameAnswers) {
     for (Ray& ray : rays) ray = rayAlong(randomPoint(random, 0.9f), randomDirection(random));
     std::vector<std::vector<Hit>> hits(4, std::vector<Hit>(rays.size()));
     std::vector<std::thread> threads;
-    for (std::vector<Hit>& mine : hits) threads.emplace_back([&] { tracer->closestHits(rays, mine); });
+    for (std::vector<Hit>& mine : hits) threads.emplace_back([&] { tracer->closestHits(rays, mine).value(); });
     for (std::thread& thread : threads) thread.join();
     for (const std::vector<Hit>& mine : hits)
         EXPECT_EQ(std::memcmp(mine.data(), hits[0].data(), mine.size() * sizeof(Hit)), 0);

@@ -60,9 +60,9 @@ struct Shot {
 inline Shot shoot(const Tracer& tracer, const Ray& ray) {
     Shot shot;
     std::uint8_t blocked = 2;
-    tracer.closestHits({&ray, 1}, {&shot.hit, 1});
-    tracer.surfaces({&ray, 1}, {&shot.hit, 1}, {&shot.surface, 1});
-    tracer.occluded({&ray, 1}, {&blocked, 1});
+    tracer.closestHits({&ray, 1}, {&shot.hit, 1}).value();
+    tracer.surfaces({&ray, 1}, {&shot.hit, 1}, {&shot.surface, 1}).value();
+    tracer.occluded({&ray, 1}, {&blocked, 1}).value();
     EXPECT_LT(blocked, 2);
     shot.blocked = blocked == 1;
     return shot;

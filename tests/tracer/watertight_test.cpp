@@ -34,8 +34,8 @@ std::size_t escapes(const Tracer& tracer, std::size_t batches, const Aim& aim) {
     std::size_t lost = 0;
     for (std::size_t batch = 0; batch < batches; ++batch) {
         aim(rays);
-        tracer.closestHits(rays, hits);
-        tracer.occluded(rays, blocked);
+        tracer.closestHits(rays, hits).value();
+        tracer.occluded(rays, blocked).value();
         for (std::size_t i = 0; i < kBatch; ++i) lost += !hits[i].valid() || blocked[i] == 0 ? 1 : 0;
     }
     return lost;

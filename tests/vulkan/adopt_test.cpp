@@ -180,8 +180,8 @@ TEST_F(VulkanAdopt, worksWithoutDebugUtils) {
     ASSERT_TRUE(volume);
     const EngineBuffer rays = engine.makeBuffer(18 * 16 * 16);
     engine.run([&](VkCommandBuffer commands) {
-        volume->recordClear(commands);
-        EXPECT_TRUE(volume->recordUpdate(commands, rays.address));
+        volume->recordClear(commands).value();
+        EXPECT_TRUE(volume->recordUpdate(commands, rays.range()));
     });
     EXPECT_EQ(volume->frame(), 1);
 }
@@ -232,9 +232,9 @@ TEST_F(VulkanAdopt, allMemoryGoesThroughTheEnginesAllocator) {
         auto volume = vulkan::ProbeVolume::create(*device, world.desc);
         ASSERT_TRUE(scene && lighting && volume);
         engine.run([&](VkCommandBuffer commands) {
-            scene->recordUpload(commands);
-            lighting->recordUpload(commands);
-            volume->recordClear(commands);
+            scene->recordUpload(commands).value();
+            lighting->recordUpload(commands).value();
+            volume->recordClear(commands).value();
             EXPECT_TRUE(volume->recordUpdate(commands, *scene, *lighting));
         });
         const std::size_t withStaging = allocator.alive.size();
@@ -257,16 +257,16 @@ TEST_F(VulkanAdopt, anAllocatorThatFailsIsAResultAndLeaksNothing) {
     ASSERT_TRUE(device);
     const auto work = [&]() -> Result<void> {
         auto scene = vulkan::GpuScene::create(log, *device, world.scene, world.pose);
-        if (!scene) return tl::unexpected(scene.error());
+        if (!scene) return scene.error();
         auto lighting = vulkan::GpuLighting::create(*device, world.lighting);
-        if (!lighting) return tl::unexpected(lighting.error());
+        if (!lighting) return lighting.error();
         auto volume = vulkan::ProbeVolume::create(*device, world.desc);
-        if (!volume) return tl::unexpected(volume.error());
+        if (!volume) return volume.error();
         Result<void> updated;
         engine.run([&](VkCommandBuffer commands) {
-            scene->recordUpload(commands);
-            lighting->recordUpload(commands);
-            volume->recordClear(commands);
+            scene->recordUpload(commands).value();
+            lighting->recordUpload(commands).value();
+            volume->recordClear(commands).value();
             updated = volume->recordUpdate(commands, *scene, *lighting);
         });
         return updated;

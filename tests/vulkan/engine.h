@@ -36,6 +36,7 @@ struct EngineBuffer {
     std::span<T> as() const {
         return {static_cast<T*>(mapped), std::size_t(bytes) / sizeof(T)};
     }
+    vulkan::BufferRange range() const { return {address, bytes}; }
 };
 
 /// A program with an instance, a device and command buffers of its own, under the validation layer with

@@ -52,7 +52,7 @@ protected:
 // Any Result without its value.
 template <class T>
 Result<void> only(const Result<T>& result) {
-    if (!result) return tl::unexpected(result.error());
+    if (!result) return result.error();
     return {};
 }
 
@@ -70,7 +70,63 @@ void expectLost(const Error& error) {
     EXPECT_NE(error.message.find("CPU backend"), std::string::npos) << error.message;
 }
 
+void expectTracerLost(const Tracer& tracer, const Ray& ray) {
+    Hit hit;
+    std::uint8_t blocked = 0;
+    Surface surface;
+    for (const Result<void>& traced :
+         {tracer.closestHits({&ray, 1}, {&hit, 1}), tracer.occluded({&ray, 1}, {&blocked, 1}),
+          tracer.surfaces({&ray, 1}, {&hit, 1}, {&surface, 1})}) {
+        ASSERT_FALSE(traced);
+        expectLost(traced.error());
+    }
+}
+
 }  // namespace
+
+// What the CPU makes of rays that a GPU traces ends with the GPU's error: no black light, no black picture.
+TEST_F(VulkanFaults, whatTheCpuDoesWithRaysOfALostDeviceFails) {
+    const vulkan::Device device = open();
+    for (const char* lamps : {"sun", "none"}) {
+        SCOPED_TRACE(lamps);
+        hooks().failCall(0, VK_SUCCESS);
+        const vulkan::Device other = open();
+        const auto tracer = vulkan::makeTracer(log, other, world.scene, world.pose);
+        ASSERT_TRUE(tracer) << tracer.error().message;
+        Lighting lighting = world.lighting;
+        if (lamps == std::string_view("sun"))
+            lighting.lights.push_back({.direction = {0, -1, 0}, .intensity = {1, 1, 1}});
+        auto field = Field::create(log, world.desc);
+        ASSERT_TRUE(field);
+        ASSERT_TRUE(field->update(**tracer, lighting));
+        const glm::vec3 before = field->irradiance(world.query());
+        const auto pathTracer = PathTracer::create(log, world.scene, world.pose, **tracer, lighting);
+        ASSERT_TRUE(pathTracer);
+
+        hooks().failCall(1, VK_ERROR_DEVICE_LOST, "vkQueueSubmit");
+        const auto updated = field->update(**tracer, lighting);
+        ASSERT_FALSE(updated);
+        expectLost(updated.error());
+        EXPECT_EQ(field->frame(), 1);
+        EXPECT_EQ(field->irradiance(world.query()), before);
+        const auto converged = field->converge(**tracer, lighting);
+        ASSERT_FALSE(converged);
+        expectLost(converged.error());
+        const auto picture = renderPicture(log, **tracer, lighting, &*field, world.picture());
+        ASSERT_FALSE(picture);
+        expectLost(picture.error());
+        const auto truth = pathTracer->render({.picture = world.picture(), .samplesPerPixel = 1});
+        ASSERT_FALSE(truth);
+        expectLost(truth.error());
+        const auto guided = pathTracer->render({.picture = world.picture(), .samplesPerPixel = 1, .guide = &*field});
+        ASSERT_FALSE(guided);
+        expectLost(guided.error());
+        const FieldQuery query = world.query();
+        const auto irradiance = pathTracer->irradiance({&query, 1}, 16);
+        ASSERT_FALSE(irradiance);
+        expectLost(irradiance.error());
+    }
+}
 
 TEST_F(VulkanFaults, aLostDeviceStaysLostAndNothingCrashes) {
     for (const char* function : {"vkQueueSubmit", "vkWaitForFences"}) {
@@ -110,13 +166,7 @@ TEST_F(VulkanFaults, aLostDeviceStaysLostAndNothingCrashes) {
             EXPECT_TRUE(std::isnan(field->probeBackfaceShare(0)));
             EXPECT_EQ(field->fallbackQueries(), 0u);
             const Ray ray{world.pose.bounds.centre(), 0.0f, {0, -1, 0}, 1e30f};
-            Hit hit;
-            hit.primitive = 7;
-            (*tracer)->closestHits({&ray, 1}, {&hit, 1});
-            EXPECT_FALSE(hit.valid());
-            std::uint8_t blocked = 1;
-            (*tracer)->occluded({&ray, 1}, {&blocked, 1});
-            EXPECT_EQ(blocked, 0);
+            expectTracerLost(**tracer, ray);
             const auto picture = vulkan::renderPicture(log, other, **tracer, world.lighting, &*field, world.picture());
             ASSERT_FALSE(picture);
             expectLost(picture.error());
@@ -171,7 +221,7 @@ TEST_F(VulkanFaults, aFieldSurvivesEveryRefusedAllocation) {
     ASSERT_TRUE(vulkan::makeField(log, device, world.desc)->update(**tracer, world.lighting));
     const auto work = [&]() -> Result<void> {
         auto field = vulkan::makeField(log, device, world.desc);
-        if (!field) return tl::unexpected(field.error());
+        if (!field) return field.error();
         if (auto ok = field->update(**tracer, world.lighting); !ok) return only(ok);
         const FieldQuery query = world.query();
         glm::vec3 answer;

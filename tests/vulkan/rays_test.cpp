@@ -152,8 +152,8 @@ TEST_F(VulkanRays, oddRaysHitNothing) {
         odd.push_back(good);  // the ray itself is fine
         std::vector<Hit> hits(odd.size());
         std::vector<std::uint8_t> blocked(odd.size());
-        (*tracer)->closestHits(odd, hits);
-        (*tracer)->occluded(odd, blocked);
+        (*tracer)->closestHits(odd, hits).value();
+        (*tracer)->occluded(odd, blocked).value();
         for (std::size_t i = 0; i < refused; ++i) {
             EXPECT_FALSE(hits[i].valid()) << i;
             EXPECT_EQ(blocked[i], 0) << i;
@@ -166,8 +166,8 @@ TEST_F(VulkanRays, oddRaysHitNothing) {
             odd[i].origin[int(i % 3)] = kOdd[i % std::size(kOdd)];
             odd[i].direction[int(i / 3 % 3)] = kOdd[(i + 4) % std::size(kOdd)];
         }
-        (*tracer)->closestHits(odd, hits);
-        (*tracer)->occluded(odd, blocked);
+        (*tracer)->closestHits(odd, hits).value();
+        (*tracer)->occluded(odd, blocked).value();
     }
 }
 
@@ -180,7 +180,8 @@ TEST_F(VulkanRays, movedInstancesAreWhereAFreshSceneHasThem) {
         SCOPED_TRACE(int(kind));
         vulkan::GpuScene moving =
             *vulkan::GpuScene::create(testContext(), testDevice(), scene, start, {.tracer = kind, .movable = true});
-        vulkan::submitAndWait(testDevice(), [&](const vulkan::Recorder& r) { moving.recordUpload(r.commands()); });
+        vulkan::submitAndWait(testDevice(),
+                              [&](const vulkan::Recorder& r) { moving.recordUpload(r.commands()).value(); });
         moving.releaseStaging();
         const std::vector<Hit> before = hitsOf(moving, rays);
         for (const float time : {0.25f, 1.0f, 0.0f}) {
@@ -192,10 +193,10 @@ TEST_F(VulkanRays, movedInstancesAreWhereAFreshSceneHasThem) {
             });
             const std::vector<Hit> moved = hitsOf(moving, rays);
             std::vector<Hit> wanted(rays.size());
-            (*makeEmbreeTracer(testContext(), scene, pose))->closestHits(rays, wanted);
+            (*makeEmbreeTracer(testContext(), scene, pose))->closestHits(rays, wanted).value();
             EXPECT_LE(differing(moved, wanted), 1);
             const auto fresh = vulkan::makeTracer(testContext(), testDevice(), scene, pose, {.tracer = kind});
-            (*fresh)->closestHits(rays, wanted);
+            (*fresh)->closestHits(rays, wanted).value();
             EXPECT_LE(differing(moved, wanted), 1);
             if (time > 0) {
                 EXPECT_GT(differing(moved, before), 20) << "nothing moved";
@@ -209,7 +210,7 @@ TEST_F(VulkanRays, aPoseOfAnotherSceneIsRefused) {
     vulkan::GpuScene moving =
         *vulkan::GpuScene::create(testContext(), testDevice(), scene, poseAt(scene), {.movable = true});
     vulkan::submitAndWait(testDevice(), [&](const vulkan::Recorder& r) {
-        moving.recordUpload(r.commands());
+        moving.recordUpload(r.commands()).value();
         const auto refused = moving.recordPose(r.commands(), world.pose);
         ASSERT_FALSE(refused);
         EXPECT_EQ(refused.error().code, ErrorCode::invalidArgument);

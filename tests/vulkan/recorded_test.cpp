@@ -74,13 +74,13 @@ TEST_F(VulkanRecorded, updatesAndQueriesInOneCommandBuffer) {
     const EngineBuffer first = answers(), second = answers(), unguarded = answers(), again = answers(),
                        others = answers();
     engine.run([&](VkCommandBuffer commands) {
-        volume.recordClear(commands);
-        other.recordClear(commands);
-        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.address));
+        volume.recordClear(commands).value();
+        other.recordClear(commands).value();
+        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.range()));
         EXPECT_TRUE(volume.recordQuery(commands, questions.address, first.address, count()));
         for (int i = 0; i < 2; ++i) {
-            EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.address));
-            EXPECT_TRUE(other.recordUpdate(commands, rayBuffer.address));
+            EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.range()));
+            EXPECT_TRUE(other.recordUpdate(commands, rayBuffer.range()));
         }
         EXPECT_TRUE(volume.recordQuery(commands, questions.address, second.address, count()));
         volume.setGuard(LeakGuard::none);
@@ -103,9 +103,9 @@ TEST_F(VulkanRecorded, updatesAndQueriesInSubmitsOfTheirOwn) {
     const vulkan::Device device = adopt();
     ProbeVolume volume = *ProbeVolume::create(device, world.desc);
     const EngineBuffer result = answers();
-    engine.submit([&](VkCommandBuffer commands) { volume.recordClear(commands); });
+    engine.submit([&](VkCommandBuffer commands) { volume.recordClear(commands).value(); });
     for (int i = 0; i < 3; ++i)
-        engine.submit([&](VkCommandBuffer commands) { EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.address)); });
+        engine.submit([&](VkCommandBuffer commands) { EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.range())); });
     engine.submit([&](VkCommandBuffer commands) {
         EXPECT_TRUE(volume.recordQuery(commands, questions.address, result.address, count()));
     });
@@ -128,10 +128,10 @@ TEST_F(VulkanRecorded, lightsThatChangeAreThoseThatWereMade) {
     for (int i = 0; i < 3; ++i) volumes.push_back(*ProbeVolume::create(device, world.desc));
     const EngineBuffer before = answers(), after = answers(), wanted = answers();
     engine.run([&](VkCommandBuffer commands) {
-        scene.recordUpload(commands);
-        changed.recordUpload(commands);
-        made.recordUpload(commands);
-        for (ProbeVolume& volume : volumes) volume.recordClear(commands);
+        scene.recordUpload(commands).value();
+        changed.recordUpload(commands).value();
+        made.recordUpload(commands).value();
+        for (ProbeVolume& volume : volumes) volume.recordClear(commands).value();
         EXPECT_TRUE(volumes[0].recordUpdate(commands, scene, changed));
         EXPECT_TRUE(changed.recordUpdate(commands, bright));
         EXPECT_TRUE(volumes[1].recordUpdate(commands, scene, changed));
@@ -165,9 +165,9 @@ TEST_F(VulkanRecorded, lampsThatMoveAreLookedForWhereTheyAre) {
         ProbeVolume volume = *ProbeVolume::create(device, world.desc);
         const EngineBuffer result = answers();
         engine.run([&](VkCommandBuffer commands) {
-            scene.recordUpload(commands);
-            none.recordUpload(commands);
-            volume.recordClear(commands);
+            scene.recordUpload(commands).value();
+            none.recordUpload(commands).value();
+            volume.recordClear(commands).value();
             EXPECT_TRUE(scene.recordPose(commands, poseAt(moving, 1.0f)));
             EXPECT_TRUE(volume.recordUpdate(commands, scene, none));
             EXPECT_TRUE(volume.recordQuery(commands, questions.address, result.address, count()));
@@ -189,15 +189,95 @@ TEST_F(VulkanRecorded, theIncludeAnswersAsThePassDoes) {
     QueryShader shader(engine, PROBEGI_QUERY_SPIRV, questions, byInclude);
     volume.writeQueryBindings(shader.volumeSet(), QueryShader::kFirstBinding);
     engine.run([&](VkCommandBuffer commands) {
-        volume.recordClear(commands);
-        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.address));
+        volume.recordClear(commands).value();
+        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.range()));
         shader.record(commands, count());
-        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.address));
-        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.address));
+        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.range()));
+        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.range()));
         shader.record(commands, count());
         EXPECT_TRUE(volume.recordQuery(commands, questions.address, byPass.address, count()));
     });
     expectEqual(byInclude, valuesOf(byPass), 1e-5f);
+}
+
+// Without an update or a query of the library's in between.
+TEST_F(VulkanRecorded, theGuardReachesShadersOfTheEngine) {
+    const vulkan::Device device = adopt();
+    ProbeVolume volume = *ProbeVolume::create(device, world.desc);
+    const EngineBuffer answered = answers();
+    QueryShader shader(engine, PROBEGI_QUERY_SPIRV, questions, answered);
+    volume.writeQueryBindings(shader.volumeSet(), QueryShader::kFirstBinding);
+    const auto askedWith = [&](LeakGuard guard, bool recorded) {
+        engine.run([&](VkCommandBuffer commands) {
+            volume.setGuard(guard);
+            if (recorded) volume.recordGuard(commands).value();
+            shader.record(commands, count());
+        });
+        return valuesOf(answered);
+    };
+    engine.run([&](VkCommandBuffer commands) {
+        volume.recordClear(commands).value();
+        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.range()));
+    });
+    const auto guarded = askedWith(LeakGuard::moments, true);
+    expectEqual(answered, onCpu(1, LeakGuard::moments), 2e-3f);
+    const auto unguarded = askedWith(LeakGuard::none, true);
+    expectEqual(answered, onCpu(1, LeakGuard::none), 2e-3f);
+    EXPECT_NE(unguarded, guarded);
+    EXPECT_EQ(askedWith(LeakGuard::moments, false), unguarded);  // until a pass hands it over
+    EXPECT_EQ(askedWith(LeakGuard::moments, true), guarded);
+    // Cleared probes keep the guard that was set.
+    engine.run([&](VkCommandBuffer commands) {
+        volume.setGuard(LeakGuard::none);
+        EXPECT_TRUE(volume.recordClear(commands));
+        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.range()));
+        shader.record(commands, count());
+    });
+    EXPECT_EQ(valuesOf(answered), unguarded);
+}
+
+TEST_F(VulkanRecorded, rayDataThatIsTooShortIsRefused) {
+    const vulkan::Device device = adopt();
+    ProbeVolume volume = *ProbeVolume::create(device, world.desc);
+    const std::size_t fixed = std::size_t(probeCount(world.desc.grid)) * volume.fixedRayDirections().size();
+    const EngineBuffer fixedBuffer = engine.makeBuffer(fixed * sizeof(FixedRayDatum));
+    const auto shorter = [](const EngineBuffer& buffer) {
+        return vulkan::BufferRange{buffer.address, buffer.bytes - 1};
+    };
+    const auto expectRefused = [](const Result<void>& done, const char* named) {
+        ASSERT_FALSE(done);
+        EXPECT_EQ(done.error().code, ErrorCode::invalidArgument);
+        EXPECT_NE(done.error().message.find(named), std::string::npos) << done.error().message;
+    };
+    engine.run([&](VkCommandBuffer commands) {
+        EXPECT_TRUE(volume.recordClear(commands));
+        expectRefused(volume.recordUpdate(commands, shorter(rayBuffer)), "rayData");
+        expectRefused(volume.recordUpdate(commands, vulkan::BufferRange()), "rayData");
+        expectRefused(volume.recordUpdate(commands, {rayBuffer.address + 2, rayBuffer.bytes}), "multiple of 4");
+        expectRefused(volume.recordUpdate(commands, {0, rayBuffer.bytes}), "multiple of 4");
+        expectRefused(volume.recordUpdate(commands, rayBuffer.range(), shorter(fixedBuffer)), "fixedRays");
+        EXPECT_EQ(volume.frame(), 0);
+        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.range(), fixedBuffer.range()));
+    });
+    EXPECT_EQ(volume.frame(), 1);
+}
+
+TEST_F(VulkanRecorded, anUploadAfterItsStagingIsGoneIsRefused) {
+    const vulkan::Device device = adopt();
+    vulkan::GpuScene scene = *vulkan::GpuScene::create(log, device, world.scene, world.pose);
+    vulkan::GpuLighting lighting = *vulkan::GpuLighting::create(device, world.lighting);
+    engine.run([&](VkCommandBuffer commands) {
+        EXPECT_TRUE(scene.recordUpload(commands));
+        EXPECT_TRUE(lighting.recordUpload(commands));
+    });
+    scene.releaseStaging();
+    lighting.releaseStaging();
+    engine.run([&](VkCommandBuffer commands) {
+        for (const Result<void>& done : {scene.recordUpload(commands), lighting.recordUpload(commands)}) {
+            ASSERT_FALSE(done);
+            EXPECT_EQ(done.error().code, ErrorCode::invalidArgument);
+        }
+    });
 }
 
 TEST_F(VulkanRecorded, passesAreTimed) {
@@ -211,9 +291,9 @@ TEST_F(VulkanRecorded, passesAreTimed) {
     for (int frame = 0; frame < 2; ++frame)
         engine.run([&](VkCommandBuffer commands) {
             if (frame == 0) {
-                scene.recordUpload(commands);
-                lighting.recordUpload(commands);
-                volume.recordClear(commands);
+                scene.recordUpload(commands).value();
+                lighting.recordUpload(commands).value();
+                volume.recordClear(commands).value();
             }
             all.recordReset(commands);
             few.recordReset(commands);
@@ -221,7 +301,7 @@ TEST_F(VulkanRecorded, passesAreTimed) {
             EXPECT_TRUE(volume.recordQuery(commands, questions.address, result.address, count(), &all));
             all.recordBegin(commands, "mine");
             all.recordEnd(commands);
-            EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.address, &few));
+            EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.range(), &few));
         });
     const auto times = all.read();
     ASSERT_TRUE(times);

@@ -22,8 +22,8 @@ std::vector<ShadingSample> rasterised(const Tracer& tracer, const PictureDesc& d
             const Ray ray{camera.origin, 0.0f, kernels::pinholeDirection(camera, float(x) + 0.5f, float(y) + 0.5f)};
             Hit hit;
             Surface s;
-            tracer.closestHits({&ray, 1}, {&hit, 1});
-            tracer.surfaces({&ray, 1}, {&hit, 1}, {&s, 1});
+            tracer.closestHits({&ray, 1}, {&hit, 1}).value();
+            tracer.surfaces({&ray, 1}, {&hit, 1}, {&s, 1}).value();
             ShadingSample sample;
             sample.viewDirection = ray.direction;
             if (hit.valid()) {
@@ -66,10 +66,10 @@ TEST(VulkanShading, samplesOfAnEngineLookLikeTheCpusPicture) {
                        without = engine.makeBuffer(std::span(samples));
     const std::uint32_t count = std::uint32_t(samples.size());
     engine.run([&](VkCommandBuffer commands) {
-        scene.recordUpload(commands);
-        lighting.recordUpload(commands);
-        volume.recordClear(commands);
-        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.address));
+        scene.recordUpload(commands).value();
+        lighting.recordUpload(commands).value();
+        volume.recordClear(commands).value();
+        EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.range()));
         EXPECT_TRUE(vulkan::recordShading(commands, scene, lighting, &volume, withField.address, count));
         EXPECT_TRUE(vulkan::recordShading(commands, scene, lighting, nullptr, without.address, count));
     });
@@ -139,11 +139,11 @@ TEST(VulkanShading, aClearedVolumeBeginsAnew) {
     const FieldQuery query = world.query();
     const EngineBuffer question = engine.makeBuffer(std::span(&query, 1)), answer = engine.makeBuffer(12);
     engine.run([&](VkCommandBuffer commands) {
-        volume.recordClear(commands);
-        for (int i = 0; i < 3; ++i) EXPECT_TRUE(volume.recordUpdate(commands, brightRays.address));
-        volume.recordClear(commands);
+        volume.recordClear(commands).value();
+        for (int i = 0; i < 3; ++i) EXPECT_TRUE(volume.recordUpdate(commands, brightRays.range()));
+        volume.recordClear(commands).value();
         EXPECT_EQ(volume.frame(), 0);
-        EXPECT_TRUE(volume.recordUpdate(commands, dimRays.address));
+        EXPECT_TRUE(volume.recordUpdate(commands, dimRays.range()));
         EXPECT_TRUE(volume.recordQuery(commands, question.address, answer.address, 1));
     });
     EXPECT_NEAR(answer.as<glm::vec3>()[0].x, 0.5f * 3.14159265f, 0.01f);

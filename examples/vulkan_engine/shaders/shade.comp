@@ -26,8 +26,8 @@ void main() {
     if (position.w > 0.0) {
         const vec3 normal = texelFetch(normals, at, 0).xyz;
         const vec3 albedo = texelFetch(albedos, at, 0).rgb;
-        // The direction to the viewer; the normal, since this one looks in through a wall, which probes must not do.
-        const vec3 toViewer = normal;
+        // The direction to the viewer; none, since this one looks in through a wall, which probes must not do.
+        const vec3 toViewer = vec3(0.0);
         // [query]
         vec3 irradiance = sunlight(frame, position.xyz, normal);
         if (withProbes) irradiance += probegiIrradiance(position.xyz, normal, toViewer);

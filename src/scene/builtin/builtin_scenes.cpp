@@ -1,9 +1,9 @@
 #include "probegi/builtin_scenes.h"
 
-#include <fmt/format.h>
 #include <array>
 #include <cmath>
 
+#include "core/sentence.h"
 #include "scene/builtin/builtin.h"
 
 namespace probegi {
@@ -46,23 +46,22 @@ Result<Scene> makeBuiltinScene(std::string_view name, const BuiltinParams& param
     std::string known;
     for (const Entry& entry : kEntries) {
         if (entry.scene.name == name) return entry.make(params);
-        known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.scene.name);
+        known += sentence(known.empty() ? "" : ", ", entry.scene.name);
     }
     return fail(ErrorCode::invalidArgument,
-                fmt::format("there is no built-in scene called '{}'; the built-in scenes are: {}", name, known));
+                sentence("there is no built-in scene called '", name, "'; the built-in scenes are: ", known));
 }
 
 namespace builtin {
 
 Result<void> requireWithin(std::string_view parameter, float value, float lower, float upper) {
     if (value >= lower && value <= upper) return {};
-    return fail(ErrorCode::invalidArgument,
-                fmt::format("{} is {:g}; it must be {:g}..{:g}", parameter, value, lower, upper));
+    return fail(ErrorCode::invalidArgument, sentence(parameter, " is ", value, "; it must be ", lower, "..", upper));
 }
 
 Result<void> requirePositive(std::string_view parameter, float value) {
     if (std::isfinite(value) && value > 0) return {};
-    return fail(ErrorCode::invalidArgument, fmt::format("{} is {:g}; it must be finite and > 0", parameter, value));
+    return fail(ErrorCode::invalidArgument, sentence(parameter, " is ", value, "; it must be finite and > 0"));
 }
 
 }  // namespace builtin

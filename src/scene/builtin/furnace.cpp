@@ -7,8 +7,8 @@ namespace probegi::builtin {
 /// 4 x 3 x 4 m, every wall with the same albedo a and emission Le, so that E = pi Le / (1 - a) at every point inside
 /// and for every normal. The walls are sheets whose fronts look inwards: there is nothing outside.
 Result<Scene> makeFurnace(const BuiltinParams& params) {
-    if (auto r = requireWithin("albedo", params.albedo, 0, 0.99f); !r) return tl::unexpected(r.error());
-    if (auto r = requirePositive("emission", params.emission); !r) return tl::unexpected(r.error());
+    if (auto r = requireWithin("albedo", params.albedo, 0, 0.99f); !r) return r.error();
+    if (auto r = requirePositive("emission", params.emission); !r) return r.error();
     Scene scene;
     scene.name = "furnace";
     const int wall = addEmitter(scene, "wall", glm::vec3(params.emission));

@@ -98,7 +98,7 @@ void furnish(Scene& scene, float side) {
 
 Result<Scene> makeRooms(const BuiltinParams& params, const char* name, bool doorway) {
     if (auto r = requireWithin("wallThickness", params.wallThickness, 0.02f, 0.30f); !r) {
-        return tl::unexpected(r.error());
+        return r.error();
     }
     const Rooms r{params.wallThickness};
     Scene scene;

@@ -27,9 +27,9 @@ double areaOf(const Primitive& p) {
 /// Its 20,480 flat facets have together exactly the area 4 pi R^2 (the vertices lie a little outside R, the facets'
 /// middles a little inside), so the mean over the surface is exact and only the spread shows the facets.
 Result<Scene> makeSphere(const BuiltinParams& params) {
-    if (auto r = requireWithin("albedo", params.albedo, 0, 0.99f); !r) return tl::unexpected(r.error());
-    if (auto r = requirePositive("power", params.power); !r) return tl::unexpected(r.error());
-    if (auto r = requirePositive("radius", params.radius); !r) return tl::unexpected(r.error());
+    if (auto r = requireWithin("albedo", params.albedo, 0, 0.99f); !r) return r.error();
+    if (auto r = requirePositive("power", params.power); !r) return r.error();
+    if (auto r = requirePositive("radius", params.radius); !r) return r.error();
     Scene scene;
     scene.name = "sphere";
     const float radius = params.radius;

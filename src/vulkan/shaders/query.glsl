@@ -4,7 +4,7 @@
 //     #define PROBEGI_BINDING 0    // ProbeVolume::queryBindings() and writeQueryBindings()
 //     #include "probegi/query.glsl"
 //     ...
-//     vec3 e = probegiIrradiance(position, normal, toViewer);  // W m^-2
+//     vec3 e = probegiIrradiance(position, normal, toViewer);  // W m^-2; vec3(0): nobody looks
 //     color += albedo * e / 3.14159265;                        // what a Lambert surface reflects
 //
 // Needs GLSL 4.60 and GL_EXT_scalar_block_layout. All names begin with probegi, PROBEGI, or are those of the kernels
@@ -142,9 +142,10 @@ float probegiPair(ivec3 cell, ProbegiFront front) {
                                      probegiVolume.rules);
 }
 
-// Irradiance E in W m^-2 at a point of a surface that faces `normal`, seen from the direction `toViewer` (both unit;
-// use the normal where there is no viewer). Outside the volume its nearest cell answers.
-vec3 probegiIrradiance(vec3 point, vec3 normal, vec3 toViewer) {
+// Irradiance E in W m^-2 at a point of a surface that faces `normal`, seen from the direction `viewer` (both unit; zero
+// stands for the normal, where nobody looks). Outside the volume its nearest cell answers.
+vec3 probegiIrradiance(vec3 point, vec3 normal, vec3 viewer) {
+    const vec3 toViewer = viewerOf(viewer, normal);
     const ivec3 counts = probegiVolume.counts;
     const int rules = probegiVolume.rules;
     const float minSpacing = probegiVolume.minSpacing;

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <thread>
+#include <vector>
+
+/// Stands for an engine's job system: a loop whose steps any thread may take, as probegi::ContextDesc::parallelFor
+/// wants it. An engine would hand the steps to threads that it already has.
+inline void runJobs(std::size_t count, const std::function<void(std::size_t)>& step) {
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+        for (std::size_t i = next++; i < count; i = next++) step(i);
+    };
+    std::vector<std::jthread> others;
+    for (unsigned i = 1; i < std::thread::hardware_concurrency() && i < count; ++i) others.emplace_back(work);
+    work();
+}

@@ -1,0 +1,10 @@
+// Compiles with one warning.
+#include "probegi/field.h"
+
+using namespace probegi;
+
+void forgetful(Field& field, const Tracer& tracer, const Lighting& lighting);
+
+void forgetful(Field& field, const Tracer& tracer, const Lighting& lighting) {
+    field.update(tracer, lighting);
+}
