@@ -10,8 +10,8 @@ void evaluate(INOUT(Lane) lane) {
     const float distance = takeBetween(lane, 0.0f, 4.0f);
     const float variance = takeUnit(lane);
 
-    giveVec3(lane, viewerOf(toViewer, normal), 0.0f);
-    giveVec3(lane, viewerOf(vec3(0.0f), normal), 0.0f);
+    giveVec3(lane, viewerOf(toViewer, normal), 1e-6f);
+    giveVec3(lane, viewerOf(vec3(0.0f), normal), 1e-6f);
     giveVec3(lane, selfShadowBias(normal, toViewer, 1.5f, 0.3f), 1e-6f);
     for (int rules = 0; rules < 2; ++rules) {
         give(lane, backfaceFloor(rules), 0.0f);
