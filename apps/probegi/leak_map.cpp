@@ -27,11 +27,12 @@ struct Tile {
 
     double ratio() const { return std::min(indirect / std::max(truth, 1e-12), kLargestRatio); }
     bool beyondNoise() const { return std::abs(indirect - truth) > kSigmas * error; }
-    bool leaks(float exposure) const {
-        if (!beyondNoise() || ratio() < kLeakRatio) return false;
+    /// How far the shown picture is from what it would be with the truth, in display values.
+    double visible(float exposure) const {
         const auto display = [&](double value) { return double(toDisplay(glm::vec3(float(value)), {exposure}).x); };
-        return display(color) - display(color - indirect + truth) > kVisible;
+        return std::abs(display(color) - display(color - indirect + truth));
     }
+    bool leaks(float exposure) const { return beyondNoise() && ratio() >= kLeakRatio && visible(exposure) > kVisible; }
 };
 
 Tile measure(const LeakInputs& in, glm::ivec2 first, glm::ivec2 end) {
@@ -51,12 +52,14 @@ Tile measure(const LeakInputs& in, glm::ivec2 first, glm::ivec2 end) {
     return tile;
 }
 
-/// Red for too much light, blue for too little, the stronger the farther from 1; two stops are all of it.
-glm::vec3 tinted(glm::vec3 grey, double ratio, bool leaks) {
+/// Red for too much light, blue for too little, the stronger the farther from 1; two stops are all of it. What nobody
+/// sees is left grey.
+glm::vec3 tinted(glm::vec3 grey, double ratio, double visible, bool leaks) {
     constexpr glm::vec3 kTooMuch(1.0f, 0.25f, 0.1f), kTooLittle(0.2f, 0.45f, 1.0f), kLeak(1.0f, 0.05f, 0.02f);
     if (leaks) return glm::mix(grey, kLeak, 0.85f);
     const float stops = float(std::log2(std::max(ratio, 1.0 / kLargestRatio)));
-    return glm::mix(grey, stops > 0 ? kTooMuch : kTooLittle, 0.6f * std::min(std::abs(stops) / 2, 1.0f));
+    const float strength = std::min(std::abs(stops) / 2, 1.0f) * std::min(float(2 * visible / kVisible), 1.0f);
+    return glm::mix(grey, stops > 0 ? kTooMuch : kTooLittle, 0.6f * strength);
 }
 
 }  // namespace
@@ -73,13 +76,14 @@ LeakMap findLeaks(const LeakInputs& in) {
             const Tile tile = measure(in, first, end);
             const double ratio = tile.beyondNoise() ? tile.ratio() : 1;
             const bool leaks = tile.leaks(in.exposure);
+            const double visible = tile.visible(in.exposure);
             ++map.tiles;
             map.leaks += leaks;
             if (leaks && ratio > map.worst) map.worst = ratio, map.where = (first + end) / 2;
             for (int y = first.y; y < end.y; ++y)
                 for (int x = first.x; x < end.x; ++x) {
                     const glm::vec3 shown = toDisplay(in.color.at(x, y), {in.exposure});
-                    map.picture.at(x, y) = tinted(glm::vec3(0.5f * float(luminance(shown))), ratio, leaks);
+                    map.picture.at(x, y) = tinted(glm::vec3(0.5f * float(luminance(shown))), ratio, visible, leaks);
                     map.ratio.at(x, y) = glm::vec3(float(ratio));
                 }
         }

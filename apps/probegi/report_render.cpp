@@ -234,8 +234,20 @@ Result<void> drawReference(const PathTracer& pathTracer, const Studio& studio, c
     return {};
 }
 
+/// A sealed room has no light to expose for: it is shown as bright as the first camera's picture, or somewhat brighter.
+void limitExposures(RenderedScene& scene) {
+    constexpr float kBrightest = 30;
+    for (RenderedView& view : scene.others) {
+        const auto lit = [](const glm::vec3& p) { return p.x > 0 || p.y > 0 || p.z > 0; };
+        const auto& pixels = view.reference.color.pixels;
+        const bool black = std::none_of(pixels.begin(), pixels.end(), lit);
+        view.exposure = black ? scene.exposure : std::min(view.exposure, kBrightest * scene.exposure);
+    }
+}
+
 Result<void> compareViews(const Studio& studio, RenderedScene& scene) {
     studio.begin(kComparing);
+    limitExposures(scene);
     for (RenderedView* view : viewsOf(scene)) {
         if (auto done = scoreNoise(*view, studio.settings.seed); !done) return done;
         std::vector<MethodResult*> methods{&view->none, &view->leaky, &view->ddgi};

@@ -59,15 +59,19 @@ std::string in(const ViewFacts& view) {
     return view.camera.empty() ? std::string() : fmt::format(" (camera {})", view.camera);
 }
 
+std::string timesText(double factor) {
+    return factor > 99 ? "over 100 times" : fmt::format("up to {:.2g} times", factor);
+}
+
 std::string sentenceOf(const ViewFacts& view, Judgement judgement) {
     const LightRatio& ratio = view.field.ratio;
     switch (judgement) {
         case Judgement::leaks:
             return fmt::format(
-                "Leaks here{}: {} of {} places in the picture have up to {:.2g} times the light that is there; the "
+                "Leaks here{}: {} of {} places in the picture have {} the light that is there; the "
                 "leak "
                 "map marks them in red.",
-                in(view), view.leaks, view.places, view.worstLeak);
+                in(view), view.leaks, view.places, timesText(view.worstLeak));
         case Judgement::noisy:
             return fmt::format(
                 "Reference too noisy{}: an exact picture would score {:.3f} of the field's {:.3f} (FLIP); make it "

@@ -56,6 +56,8 @@ TEST(LeakMap, BrighterIsNoLeakUnlessItIsTwiceAndSeen) {
     pictures.light(0, 3, 5);
     EXPECT_EQ(pictures.map().leaks, 1);
     EXPECT_EQ(pictures.map(1e-3f).leaks, 0) << "too dark to be seen";
+    const glm::vec3 unseen = pictures.map(1e-5f).picture.at(4, 28);
+    EXPECT_NEAR(unseen.x, unseen.z, 1e-3f) << "and so it is not painted";
 }
 
 TEST(LeakMap, TooLittleLightIsNoLeak) {

@@ -72,6 +72,8 @@ TEST(Verdict, LeaksComeFirst) {
     EXPECT_EQ(verdict.judgement, Judgement::leaks);
     EXPECT_THAT(verdict.sentence, HasSubstr("Leaks here: 3 of 1000 places"));
     EXPECT_THAT(verdict.sentence, HasSubstr("up to 4.3 times"));
+    view.worstLeak = 1000;  // where there should be none at all
+    EXPECT_THAT(of(view).sentence, HasSubstr("over 100 times"));
     view.exact.flip = 0.01;
     view.leaks = 2;  // a leaf here and there
     EXPECT_EQ(of(view).judgement, Judgement::matches);

@@ -86,7 +86,7 @@ TEST(MipMaps, AllThatMaterialsUse) {
 }
 
 // A texture of 512 x 512 texels on a square metre: at 2 m a ray of a milliradian covers 1.024 texels, and every
-// doubling of spread, distance or slant is one level more.
+// doubling of spread or distance is one level more.
 TEST(FootprintLevel, OneTexelIsLevelZeroAndDoublingIsOneMore) {
     const float texels =
         kernels::texelsPerUvArea({1, 0, 0}, {0, 1, 0}, 512, 512) * kernels::uvArea({0, 0}, {1, 0}, {0, 1});
