@@ -33,7 +33,7 @@ struct ContextDesc {
 /// there is no global state, two contexts are independent.
 class Context {
 public:
-    /// Errors: invalidArgument when threads is out of range.
+    /// Errors: invalidArgument when threads is out of range, outOfMemory where the system does not start so many.
     static Result<Context> create(const ContextDesc& desc = {});
 
     int threads() const noexcept;

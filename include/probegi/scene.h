@@ -142,6 +142,9 @@ struct Scene {
     Sky sky{};
     std::optional<GridDesc> grid{};  ///< a probe grid that came with the scene; empty: placed automatically
     float exposure = 1.0f;           ///< suggested tone-map exposure for pictures of this scene
+    /// Where the point (0, 0, 0) of all coordinates here lies in those of the scene's file, metres. Not zero only where
+    /// loadScene() moved a scene that lay far from the origin.
+    glm::vec3 origin{0.0f};
 
     /// Adds a root node and returns its index.
     int addNode(Node node) {

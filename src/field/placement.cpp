@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "probegi/field.h"
+#include "field/layout.h"
 
 namespace probegi {
 
@@ -66,6 +66,12 @@ Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc) {
         }
         grid.counts = desc.counts;
     }
+    const float closest = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+    if (closest < kSmallestSpacing)
+        return fail(ErrorCode::invalidArgument,
+                    fmt::format("the scene is only {:.3g} m large: its probes would be {:.3g} m apart, and {:.3g} m is "
+                                "the least; is it in metres? scale it up",
+                                largest, closest, kSmallestSpacing));
     grid.origin = bounds.centre() - 0.5f * grid.spacing * glm::vec3(grid.counts - 1);
     return grid;
 }

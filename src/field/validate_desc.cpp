@@ -22,7 +22,7 @@ Result<void> checkGrid(const GridDesc& grid) {
     std::int64_t probes = 1;
     for (int axis = 0; axis < 3; ++axis) {
         if (!std::isfinite(grid.origin[axis])) return fail(ErrorCode::invalidArgument, "grid.origin is not finite");
-        if (auto ok = checkRange("grid.spacing", grid.spacing[axis], 1e-6, 1e9); !ok) return ok;
+        if (auto ok = checkRange("grid.spacing", grid.spacing[axis], kSmallestSpacing, kLargestSpacing); !ok) return ok;
         if (auto ok = checkRange("grid.counts", grid.counts[axis], 2, 1024); !ok) return ok;
         probes *= grid.counts[axis];
     }

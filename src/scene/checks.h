@@ -50,9 +50,18 @@ inline std::string text(glm::vec4 v) {
     return fmt::format("({:g}, {:g}, {:g}, {:g})", v.x, v.y, v.z, v.w);
 }
 
+/// A name of a file's as a sentence can quote it: files may have names of any length.
+inline std::string quotable(std::string_view name) {
+    constexpr std::size_t kMost = 80;
+    if (name.size() <= kMost) return std::string(name);
+    std::size_t end = kMost;
+    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;  // not within a UTF-8 character
+    return std::string(name.substr(0, end)) + "...";
+}
+
 /// "material 3 'brick'", or "material 3" for one without a name.
 inline std::string title(std::string_view kind, std::size_t index, std::string_view name) {
-    return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, name);
+    return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, quotable(name));
 }
 
 template <class... Args>

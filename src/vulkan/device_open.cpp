@@ -46,7 +46,7 @@ vk::DebugUtilsMessengerCreateInfoEXT messengerInfo(const Device::Impl& impl) {
             const_cast<Device::Impl*>(&impl)};
 }
 
-vk::raii::Instance makeInstance(const vk::raii::Context& vulkan, bool validation, bool debugUtils) {
+vk::raii::Instance makeInstance(const vk::raii::Context& vulkan, bool validation, bool debugUtils) try {
     const vk::ApplicationInfo application("ProbeGI", 1, "ProbeGI", 1, VK_API_VERSION_1_3);
     std::vector<const char*> layers, extensions;
     if (debugUtils) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
@@ -57,6 +57,13 @@ vk::raii::Instance makeInstance(const vk::raii::Context& vulkan, bool validation
         extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     }
     return {vulkan, vk::InstanceCreateInfo({}, &application, layers, extensions, validation ? &checks : nullptr)};
+} catch (const vk::OutOfHostMemoryError&) {
+    // What the loader says of a driver's description that it cannot read, too.
+    throw Failure(
+        ErrorCode::unsupported,
+        "Vulkan cannot start: a driver's .json file is damaged (they lie in /usr/share/vulkan/icd.d, or where "
+        "VK_DRIVER_FILES and VK_ICD_FILENAMES say), or memory has run out; repair the file, or use the CPU "
+        "backend");
 }
 
 // Best first: what a person would choose.
