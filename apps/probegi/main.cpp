@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <new>
+#include <system_error>
 
 #include "commands.h"
 #include "terminal.h"
@@ -74,15 +75,18 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     keepStandardStreams();
     int exitCode = 1;
+    std::error_code printing;
     try {
         exitCode = run(argc, argv);
     } catch (const std::bad_alloc&) {
         printError({probegi::ErrorCode::outOfMemory, "there is not enough memory for this; ask for less of it"});
     } catch (const std::exception& error) {
-        // Printing throws where it fails, of which closing tells; all else is a defect of ours.
-        if (!std::ferror(stdout))
+        const auto* system = dynamic_cast<const std::system_error*>(&error);
+        if (std::ferror(stdout) && system)
+            printing = system->code();  // closing tells
+        else
             printError({probegi::ErrorCode::invalidArgument,
                         fmt::format("the program has met a defect of its own ({}); please report it", error.what())});
     }
-    return closeStandardOutput(exitCode);
+    return closeStandardOutput(exitCode, printing);
 }

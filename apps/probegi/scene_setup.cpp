@@ -31,11 +31,17 @@ bool hasEmission(const Scene& scene, const ScenePose& pose) {
 
 // Pictures of skies often go a little below zero at saturated colours; what is no number at all is refused.
 Result<void> cleanSky(HdrImage& image, const std::string& path) {
+    constexpr float kBrightest = 1e20f;  // Sky::image
     for (glm::vec3& pixel : image.pixels) {
         if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y) || !std::isfinite(pixel.z))
             return fail(ErrorCode::malformed,
                         fmt::format("--sky '{}' holds infinite or undefined values; repair the picture", path));
         pixel = glm::max(pixel, glm::vec3(0.0f));
+        if (std::max({pixel.x, pixel.y, pixel.z}) > kBrightest)
+            return fail(ErrorCode::malformed,
+                        fmt::format("--sky '{}' has a pixel of {:.3g} W/sr/m2; {:g} is the brightest that can be "
+                                    "computed with, repair the picture",
+                                    path, std::max({pixel.x, pixel.y, pixel.z}), kBrightest));
     }
     return {};
 }

@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <system_error>
 
 namespace probegi::tool {
 
@@ -149,12 +148,14 @@ std::string plainText(std::string_view text, std::size_t most) {
     return plain;
 }
 
-int closeStandardOutput(int exitCode) {
-    errno = 0;
-    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return exitCode;
-    const std::string reason = errno ? fmt::format(" ({})", std::generic_category().message(errno)) : std::string();
+int closeStandardOutput(int exitCode, std::error_code reason) {
+    if (std::fflush(stdout) != 0)
+        reason = std::error_code(errno, std::generic_category());
+    else if (!std::ferror(stdout))
+        return exitCode;
+    const std::string why = reason ? fmt::format(" ({})", reason.message()) : std::string();
     const int failed = printError(
-        {ErrorCode::writeFailed, fmt::format("what is printed cannot be written{}; check where it goes", reason)});
+        {ErrorCode::writeFailed, fmt::format("what is printed cannot be written{}; check where it goes", why)});
     return exitCode ? exitCode : failed;
 }
 

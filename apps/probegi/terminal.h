@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "probegi/context.h"
 
@@ -35,8 +36,9 @@ std::string plainText(std::string_view text, std::size_t most = std::string_view
 /// What of a name is shown in a line of a table.
 constexpr std::size_t kShownName = 80;
 
-/// Makes sure that what was printed has arrived. Returns the exit code: that of the run, or 1 and "error: ...".
-int closeStandardOutput(int exitCode);
+/// Makes sure that what was printed has arrived. `reason`: why printing failed before, where that is known. Returns the
+/// exit code: that of the run, or 1 and "error: ...".
+int closeStandardOutput(int exitCode, std::error_code reason = {});
 
 /// Takes the numbers of standard streams that whoever started the program has closed, so that no file gets one of them
 /// and with it what is printed. To be called first.

@@ -123,8 +123,9 @@ struct AnimationChannel {
 
 /// Light from infinitely far away.
 struct Sky {
-    glm::vec3 radiance{0.0f};  ///< W sr^-1 m^-2; a factor on the image where there is one
-    HdrImage image{};          ///< equirectangular, centre column = direction -Z, top row = +Y; empty: constant
+    glm::vec3 radiance{0.0f};  ///< W sr^-1 m^-2, 0 to 1e20; a factor on the image where there is one
+    HdrImage image{};  ///< equirectangular, centre column = direction -Z, top row = +Y, 0 to 1e20 with the factor;
+                       ///< empty: constant
     bool textured() const { return image.width > 0; }
     bool black() const { return radiance.x <= 0 && radiance.y <= 0 && radiance.z <= 0; }
 };

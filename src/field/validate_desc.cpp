@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "field/layout.h"
+#include "kernels/ray_offset.h"
 
 namespace probegi {
 
@@ -18,6 +21,21 @@ Result<void> checkMapSize(const char* name, int size, int highest) {
     return fail(ErrorCode::invalidArgument, fmt::format("{} is {}; it must be even", name, size));
 }
 
+/// Rays leave a surface from a little beside it, as far as coordinates are rounded there; that must be little for the
+/// probes too, or their light is lost.
+Result<void> checkDistance(const GridDesc& grid) {
+    constexpr float kMostOfSpacing = 0.25f;
+    const glm::vec3 last = grid.origin + grid.spacing * glm::vec3(grid.counts - 1);
+    const glm::vec3 corner = glm::max(glm::abs(grid.origin), glm::abs(last));
+    const float closest = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+    if (kernels::rayOffset(corner, 0.0f) <= kMostOfSpacing * closest) return {};
+    return fail(
+        ErrorCode::invalidArgument,
+        fmt::format("the probe grid reaches {:.3g} m from the origin, where coordinates are too coarse for probes "
+                    "{:.3g} m apart; move the scene to the origin, or set probes farther apart",
+                    std::max({corner.x, corner.y, corner.z}), closest));
+}
+
 Result<void> checkGrid(const GridDesc& grid) {
     std::int64_t probes = 1;
     for (int axis = 0; axis < 3; ++axis) {
@@ -26,6 +44,7 @@ Result<void> checkGrid(const GridDesc& grid) {
         if (auto ok = checkRange("grid.counts", grid.counts[axis], 2, 1024); !ok) return ok;
         probes *= grid.counts[axis];
     }
+    if (auto ok = checkDistance(grid); !ok) return ok;
     return checkRange("the number of probes in the grid", double(probes), 8, 1 << 24);
 }
 

@@ -38,9 +38,13 @@ inline bool within(float v, float lower, float upper) {
     return v >= lower && v <= upper;
 }
 
-/// Finite and not negative.
+/// The brightest light, W sr^-1 m^-2 or the unit of a lamp: from 1e21 on probes can no longer store it, and sums of the
+/// largest floats are infinite.
+inline constexpr float kBrightest = 1e20f;
+
+/// From 0 to kBrightest.
 inline bool energy(glm::vec3 v) {
-    return finite(v) && v.x >= 0 && v.y >= 0 && v.z >= 0;
+    return within(v.x, 0, kBrightest) && within(v.y, 0, kBrightest) && within(v.z, 0, kBrightest);
 }
 
 inline std::string text(glm::vec3 v) {

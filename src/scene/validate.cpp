@@ -34,14 +34,15 @@ Result<void> validateExtent(const Scene& scene) {
 
 Result<void> validateSurroundings(const Scene& scene) {
     const Sky& sky = scene.sky;
-    if (!energy(sky.radiance)) return malformed("sky: radiance {} must be finite and >= 0", text(sky.radiance));
+    if (!energy(sky.radiance)) return malformed("sky: radiance {} must be 0 to {:g}", text(sky.radiance), kBrightest);
     const HdrImage& image = sky.image;
     if (image.width < 0 || image.height < 0 || image.pixels.size() != std::size_t(image.width) * image.height) {
         return malformed("sky image: {} pixels do not make {} x {}", image.pixels.size(), image.width, image.height);
     }
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        if (!energy(image.pixels[i])) {
-            return malformed("sky image: pixel {} is {}; radiance must be finite and >= 0", i, text(image.pixels[i]));
+        if (!energy(image.pixels[i]) || !energy(image.pixels[i] * sky.radiance)) {
+            return malformed("sky image: pixel {} is {} times {}; radiance must be 0 to {:g}", i, text(image.pixels[i]),
+                             text(sky.radiance), kBrightest);
         }
     }
     if (!finite(scene.exposure) || scene.exposure <= 0) {
@@ -50,7 +51,7 @@ Result<void> validateSurroundings(const Scene& scene) {
     if (!scene.grid) return {};
     const GridDesc& grid = *scene.grid;
     if (!finite(grid.origin)) return malformed("probe grid: origin {} must be finite", text(grid.origin));
-    if (!energy(grid.spacing) || grid.spacing.x <= 0 || grid.spacing.y <= 0 || grid.spacing.z <= 0) {
+    if (!finite(grid.spacing) || grid.spacing.x <= 0 || grid.spacing.y <= 0 || grid.spacing.z <= 0) {
         return malformed("probe grid: spacing {} must be finite and > 0", text(grid.spacing));
     }
     std::int64_t product = 1;

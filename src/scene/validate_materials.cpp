@@ -42,7 +42,9 @@ Result<void> validateFactors(const std::string& what, const Material& m) {
     }
     if (!within(m.metallic, 0, 1)) return malformed("{}: metallic {:g} must be 0..1", what, m.metallic);
     if (!within(m.roughness, 0, 1)) return malformed("{}: roughness {:g} must be 0..1", what, m.roughness);
-    if (!energy(m.emission)) return malformed("{}: emission {} must be finite and >= 0", what, text(m.emission));
+    if (!energy(m.emission)) {
+        return malformed("{}: emission {} must be 0 to {:g}", what, text(m.emission), kBrightest);
+    }
     if (!finite(m.normalScale)) return malformed("{}: normal scale {:g} must be finite", what, m.normalScale);
     if (!within(m.alphaCutoff, 0, 1)) return malformed("{}: alpha cutoff {:g} must be 0..1", what, m.alphaCutoff);
     return {};

@@ -10,7 +10,7 @@ namespace {
 
 Result<void> validateLight(const std::string& what, const Light& light) {
     if (!energy(light.intensity)) {
-        return malformed("{}: intensity {} must be finite and >= 0", what, text(light.intensity));
+        return malformed("{}: intensity {} must be 0 to {:g}", what, text(light.intensity), kBrightest);
     }
     if (!finite(light.range) || light.range < 0) {
         return malformed("{}: range {:g} must be finite and >= 0 (0: unlimited)", what, light.range);

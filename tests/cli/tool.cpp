@@ -16,9 +16,9 @@ namespace probegi::test {
 
 namespace fs = std::filesystem;
 
-ToolRun runTool(const std::vector<std::string>& arguments) {
+ToolRun runTool(const std::vector<std::string>& arguments, const std::string& standardOutput) {
     const TemporaryFolder folder;
-    const std::string out = folder.file("out"), err = folder.file("err");
+    const std::string out = standardOutput.empty() ? folder.file("out") : standardOutput, err = folder.file("err");
     std::string program = PROBEGI_TOOL;
     std::vector<std::string> copies = arguments;
     std::vector<char*> argv{program.data()};
@@ -36,7 +36,8 @@ ToolRun runTool(const std::vector<std::string>& arguments) {
     if (failed) throw std::runtime_error("cannot start " + program);
     int status = 0;
     if (waitpid(child, &status, 0) != child) throw std::runtime_error("cannot wait for " + program);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(out), readText(err)};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, standardOutput.empty() ? readText(out) : std::string(),
+            readText(err)};
 }
 
 void expectRefused(const std::vector<std::string>& arguments, const std::string& mentions, int exitCode) {

@@ -12,8 +12,8 @@ struct ToolRun {
     std::string out, err;
 };
 
-/// Runs the program and waits for it.
-ToolRun runTool(const std::vector<std::string>& arguments);
+/// Runs the program and waits for it. What it prints goes to `standardOutput` where that is given.
+ToolRun runTool(const std::vector<std::string>& arguments, const std::string& standardOutput = {});
 
 /// Expects a run to be refused: this exit code, nothing on stdout, one sentence on stderr with `mentions` in it.
 void expectRefused(const std::vector<std::string>& arguments, const std::string& mentions, int exitCode);

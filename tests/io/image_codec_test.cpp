@@ -169,6 +169,21 @@ TEST(ImageCodec, ReadsJpeg) {
     }
 }
 
+TEST(ImageCodec, CmykJpegIsRefusedInASentence) {
+    const Bytes pixels(4 * 16 * 16, 99);
+    const tjhandle handle = tjInitCompress();
+    unsigned char* data = nullptr;
+    unsigned long size = 0;
+    ASSERT_EQ(tjCompress2(handle, pixels.data(), 16, 0, 16, TJPF_CMYK, &data, &size, TJSAMP_444, 90, 0), 0);
+    const Bytes bytes(data, data + size);
+    tjFree(data);
+    tjDestroy(handle);
+    const auto image = decode(bytes, io::ImageFormat::jpeg);
+    ASSERT_FALSE(image);
+    EXPECT_EQ(image.error().code, ErrorCode::unsupported);
+    EXPECT_THAT(image.error().message, HasSubstr("CMYK"));
+}
+
 TEST(ImageCodec, DamagedJpegNeverCrashes) {
     const Bytes whole = makeJpeg(40, 40, true);
     for (std::size_t length = 0; length + 2 < whole.size(); ++length) {
