@@ -137,6 +137,28 @@ int openNameless(const fs::path& folder) {
     return -1;
 }
 
+/// A new file that is to become `path`: nameless where that can be, else of this name. Negative, and errno, where none
+/// can be made.
+struct NewFile {
+    int descriptor;
+    bool nameless;
+};
+
+NewFile openNew(const fs::path& path, const fs::path& name) {
+    ::unlink(name.c_str());  // left by a process that had this one's number and was killed
+    if (const int nameless = openNameless(folderOf(path)); nameless >= 0) return {nameless, true};
+    return {::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666), false};
+}
+
+/// Rights do not tell all: some file systems take no files of ours, whoever asks.
+void tryNew(const fs::path& path) {
+    const fs::path name = temporaryName(path);
+    const NewFile made = openNew(path, name);
+    if (made.descriptor < 0) refuseWrite(errno);
+    ::close(made.descriptor);
+    if (!made.nameless) ::unlink(name.c_str());
+}
+
 /// errno, 0 for success.
 int giveName(int descriptor, const fs::path& name) {
     const std::string self = fmt::format("/proc/self/fd/{}", descriptor);
@@ -152,13 +174,12 @@ void keepPermissions(const fs::path& old, int descriptor) {
 /// errno, 0 for success.
 int replaceFile(const fs::path& path, std::span<const std::uint8_t> bytes) {
     const fs::path name = temporaryName(path);
-    ::unlink(name.c_str());  // left by a process that had this one's number and was killed
-    const int nameless = openNameless(folderOf(path));
-    Descriptor file(nameless >= 0 ? nameless : ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    const NewFile made = openNew(path, name);
+    Descriptor file(made.descriptor);
     if (!file.open()) return errno;
     keepPermissions(path, file.number());
     int failure = writeAll(file.number(), bytes);
-    if (!failure && nameless >= 0) failure = giveName(file.number(), name);
+    if (!failure && made.nameless) failure = giveName(file.number(), name);
     if (const int closing = file.close(); !failure) failure = closing;
     if (!failure && ::rename(name.c_str(), path.c_str()) != 0) failure = errno;
     if (failure) ::unlink(name.c_str());
@@ -184,6 +205,7 @@ void requireWritable(const fs::path& path) {
     }
     if (to.kind == Destination::Kind::file) requireFolder(folderOf(to.path));
     if (::access(to.path.c_str(), W_OK) != 0 && errno != ENOENT) refuseWrite(errno);
+    if (to.kind == Destination::Kind::file) tryNew(to.path);
 }
 
 void writeBytes(const fs::path& path, std::span<const std::uint8_t> bytes) {

@@ -141,6 +141,12 @@ TEST_F(FileOutput, FoldersAreRefused) {
     expectRefused(writeFile(path("file") / "a", bytesOf("x")), path("file") / "a", "cannot be written");
 }
 
+TEST_F(FileOutput, PlacesThatTakeNoFilesAreFoundBeforeTheWork) {
+    // Where even root can make no file, though it may write to the folder.
+    for (const char* place : {"/proc/a.png", "/dev/fd/777"})
+        expectRefused(checkWritable(place), place, "cannot be written");
+}
+
 // A process that ends in the middle of writing, as by Ctrl-C: here for a limit on sizes, which hits always.
 TEST_F(FileOutput, AnEndInTheMiddleLeavesNothing) {
     expectWritten(path("a"), "old");
