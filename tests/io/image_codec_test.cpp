@@ -14,6 +14,7 @@
 #include <cstring>
 
 #include "io/refused.h"
+#include "support/memory.h"
 
 namespace probegi::test {
 namespace {
@@ -126,6 +127,28 @@ TEST(ImageCodec, RefusesExrItCannotShow) {
     const std::int32_t lying[] = {0, 0, 32767, 32767};
     std::memcpy(&*box, lying, sizeof(lying));
     refused(huge, ErrorCode::outOfMemory, "32768 x 32768");
+}
+
+// The files are long enough for what they claim to be believed, of zeros.
+TEST(ImageCodec, ExrThatClaimsMuchFillsLittle) {
+    const auto claiming = [](std::int32_t side) {
+        Bytes exr = makeExr({"R", "G", "B"});
+        const std::uint8_t name[] = "dataWindow";
+        const auto at = std::search(exr.begin(), exr.end(), std::begin(name), std::end(name));
+        const std::int32_t window[] = {0, 0, side - 1, side - 1};
+        std::memcpy(&*(at + std::ptrdiff_t(sizeof("dataWindow") + sizeof("box2i") + 4)), window, sizeof(window));
+        exr.resize(exr.size() + (1 << 20));
+        return exr;
+    };
+    const std::size_t before = peakMemory();
+    const auto beyond = decode(claiming(16384));
+    ASSERT_FALSE(beyond);
+    EXPECT_EQ(beyond.error().code, ErrorCode::outOfMemory);
+    EXPECT_THAT(beyond.error().message, HasSubstr("out of proportion"));
+    const auto within = decode(claiming(4096));
+    ASSERT_FALSE(within);
+    EXPECT_EQ(within.error().code, ErrorCode::malformed);
+    EXPECT_LT(peakMemory() - before, std::size_t(64) << 20);
 }
 
 Bytes makeJpeg(int width, int height, bool progressive) {
