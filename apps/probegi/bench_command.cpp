@@ -74,10 +74,12 @@ Result<Reported> measure(const BenchOptions& options, const LoadedSetup& setup) 
 }
 
 Result<void> bench(const BenchOptions& options) {
+    Outputs outputs;
     if (!options.json.empty())
-        if (auto checked = checkOutput(options.json, {}); !checked) return checked;
+        if (auto claimed = outputs.claim("--json", options.json); !claimed) return claimed;
     const auto setup = loadSetup(options.scene);
     if (!setup) return setup.error();
+    if (auto apart = outputs.keepApartFrom(setup->files); !apart) return apart;
     const auto reported = measure(options, *setup);
     if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K");
     if (!reported) return reported.error();

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "machine.h"
+#include "output.h"
 #include "render_stats.h"
 #include "text_table.h"
 
@@ -205,7 +206,7 @@ std::string benchJson(const BenchResult& result, const std::string& sceneName) {
     json["growth"] = nlohmann::ordered_json::array();
     for (const BenchGrowth& g : result.growth)
         json["growth"].push_back({{"probes", g.probes}, {"raysPerProbe", g.rays}, {"ms", median(g.ms)}});
-    return json.dump(2) + "\n";
+    return jsonText(json);
 }
 
 }  // namespace probegi::tool

@@ -19,6 +19,7 @@ struct CompareOptions {
     std::string heatmap;
     bool json = false;
     float exposure = 1.0f;
+    ReadLimits limits;
 };
 
 void print(const ImageDifference& d, bool json) {
@@ -26,12 +27,11 @@ void print(const ImageDifference& d, bool json) {
     if (json) {
         const nlohmann::ordered_json ratio{
             {"mean", r.mean}, {"p5", r.low}, {"median", r.median}, {"p95", r.high}, {"blocks", r.blocks}};
-        fmt::print("{}\n", nlohmann::ordered_json{{"rmse", d.rmse},
-                                                  {"relmse", d.relmse},
-                                                  {"scaledRelmse", d.scaledRelmse},
-                                                  {"flip", d.flip},
-                                                  {"ratio", ratio}}
-                               .dump(2));
+        fmt::print("{}", jsonText({{"rmse", d.rmse},
+                                   {"relmse", d.relmse},
+                                   {"scaledRelmse", d.scaledRelmse},
+                                   {"flip", d.flip},
+                                   {"ratio", ratio}}));
         return;
     }
     fmt::print(
@@ -51,11 +51,13 @@ void print(const ImageDifference& d, bool json) {
 
 Result<void> compare(const CompareOptions& options) {
     const bool writesMap = !options.heatmap.empty();
+    Outputs outputs;
     if (writesMap)
-        if (auto checked = checkOutput(options.heatmap, pictureExtensions()); !checked) return checked;
-    const auto test = readImage(options.test);
+        if (auto claimed = outputs.claim("--heatmap", options.heatmap, pictureExtensions()); !claimed) return claimed;
+    if (auto apart = outputs.keepApartFrom({options.test, options.reference}); !apart) return apart;
+    const auto test = readImage(options.test, options.limits);
     if (!test) return test.error();
-    const auto reference = readImage(options.reference);
+    const auto reference = readImage(options.reference, options.limits);
     if (!reference) return reference.error();
     if (test->width != reference->width || test->height != reference->height)
         return fail(
@@ -86,6 +88,7 @@ void addCompareCommand(CLI::App& app, int& exitCode) {
         ->type_name("FACTOR")
         ->check(inRange(1e-9, 1e9))
         ->capture_default_str();
+    addUnpackLimit(*command, options->limits);
     command->footer("Example: probegi compare field.exr reference.exr --heatmap difference.png");
     command->callback([options, &exitCode] {
         if (const auto done = compare(*options); !done) exitCode = printError(done.error());

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "output.h"
 #include "terminal.h"
 #include "text_table.h"
 #include "vulkan_backend.h"
@@ -26,8 +27,9 @@ std::string usableText(const vulkan::DeviceInfo& device) {
 void printTable(const std::vector<vulkan::DeviceInfo>& devices) {
     std::vector<std::vector<std::string>> cells{{"index", "name", "type", "driver", "Vulkan", "ray query", "usable"}};
     for (const vulkan::DeviceInfo& device : devices)
-        cells.push_back({std::to_string(device.index), device.name, device.type, device.driver, device.api,
-                         device.rayQuery ? "yes" : "no", usableText(device)});
+        cells.push_back({std::to_string(device.index), plainText(device.name, kShownName), device.type,
+                         plainText(device.driver, kShownName), device.api, device.rayQuery ? "yes" : "no",
+                         usableText(device)});
     fmt::print("{}", markdownTable(cells));
 }
 
@@ -42,7 +44,7 @@ void printJson(const std::vector<vulkan::DeviceInfo>& devices) {
                         {"rayQuery", device.rayQuery},
                         {"usable", device.usable()},
                         {"missing", device.missing}});
-    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    fmt::print("{}", jsonText(json));
 }
 
 Result<void> listDevices(bool json) {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "gpu_bench.h"
+#include "output.h"
 #include "text_table.h"
 
 namespace probegi::tool {
@@ -115,7 +116,7 @@ std::string gpuBenchJson(const GpuBenchResult& result, const std::string& sceneN
         if (const std::string judged = verdict(result, row); !judged.empty()) entry["pass"] = judged == "pass";
         json["rows"][row.key] = std::move(entry);
     }
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return jsonText(json);
 }
 
 }  // namespace probegi::tool

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "output.h"
 #include "scene_setup.h"
 
 namespace probegi::tool {
@@ -22,22 +23,22 @@ const char* typeName(LightType type) {
     return type == LightType::point ? "point" : "spot";
 }
 
-Json lightsOf(const ScenePose& pose) {
+Json lightsOf(const ScenePose& pose, glm::vec3 origin) {
     Json lights = Json::array();
     for (const PlacedLight& light : pose.lights) {
         Json entry{{"type", typeName(light.type)}, {"intensity", toJson(light.intensity)}};
-        if (light.type != LightType::directional) entry["position"] = toJson(light.position);
+        if (light.type != LightType::directional) entry["position"] = toJson(light.position + origin);
         if (light.type != LightType::point) entry["direction"] = toJson(light.direction);
         lights.push_back(std::move(entry));
     }
     return lights;
 }
 
-Json camerasOf(const ScenePose& pose) {
+Json camerasOf(const ScenePose& pose, glm::vec3 origin) {
     Json cameras = Json::array();
     for (const PlacedCamera& camera : pose.cameras)
         cameras.push_back({{"name", camera.name},
-                           {"position", toJson(camera.position)},
+                           {"position", toJson(camera.position + origin)},
                            {"forward", toJson(camera.forward)},
                            {"yfov", camera.yfov}});
     return cameras;
@@ -52,7 +53,7 @@ Json gridOf(const Scene& scene, const ScenePose& pose) {
     const Result<GridDesc> grid = scene.grid ? Result<GridDesc>(*scene.grid) : placeGrid(pose.bounds);
     if (!grid) return nullptr;
     return {{"source", scene.grid ? "scene" : "automatic"},
-            {"origin", toJson(grid->origin)},
+            {"origin", toJson(grid->origin + scene.origin)},
             {"spacing", toJson(grid->spacing)},
             {"counts", {grid->counts.x, grid->counts.y, grid->counts.z}},
             {"probes", probeCount(*grid)}};
@@ -73,20 +74,22 @@ Json describe(const SceneOptions& options, const LoadedScene& loaded) {
     const Scene& scene = loaded.scene;
     const ScenePose pose = poseAt(scene, options.timeOfScene);
     Lighting lighting{pose.lights, scene.sky};
-    return {{"scene", options.scene},
-            {"triangles", triangleCount(scene, pose)},
-            {"meshes", scene.meshes.size()},
-            {"instances", pose.instances.size()},
-            {"materials", scene.materials.size()},
-            {"textures", scene.images.size()},
-            {"lights", lightsOf(pose)},
-            {"sky", skyOf(scene.sky)},
-            {"lit", hasLight(scene, pose, lighting)},
-            {"cameras", camerasOf(pose)},
-            {"bounds", {{"lower", toJson(pose.bounds.lower)}, {"upper", toJson(pose.bounds.upper)}}},
-            {"animation", animationSpan(scene)},
-            {"grid", gridOf(scene, pose)},
-            {"warnings", loaded.warnings}};
+    return {
+        {"scene", options.scene},
+        {"triangles", triangleCount(scene, pose)},
+        {"meshes", scene.meshes.size()},
+        {"instances", pose.instances.size()},
+        {"materials", scene.materials.size()},
+        {"textures", scene.images.size()},
+        {"lights", lightsOf(pose, scene.origin)},
+        {"sky", skyOf(scene.sky)},
+        {"lit", hasLight(scene, pose, lighting)},
+        {"cameras", camerasOf(pose, scene.origin)},
+        {"bounds",
+         {{"lower", toJson(pose.bounds.lower + scene.origin)}, {"upper", toJson(pose.bounds.upper + scene.origin)}}},
+        {"animation", animationSpan(scene)},
+        {"grid", gridOf(scene, pose)},
+        {"warnings", loaded.warnings}};
 }
 
 std::string vectorText(const Json& v) {
@@ -109,8 +112,9 @@ void printCameras(const Json& info) {
     fmt::print("cameras     {}\n", info["cameras"].size());
     int index = 0;
     for (const Json& camera : info["cameras"])
-        fmt::print("  {:<3}{:<20} at {} towards {}\n", index++, "'" + camera["name"].get<std::string>() + "'",
-                   vectorText(camera["position"]), vectorText(camera["forward"]));
+        fmt::print("  {:<3}{:<20} at {} towards {}\n", index++,
+                   "'" + plainText(camera["name"].get<std::string>(), kShownName) + "'", vectorText(camera["position"]),
+                   vectorText(camera["forward"]));
 }
 
 void printGrid(const Json& grid) {
@@ -122,7 +126,7 @@ void printGrid(const Json& grid) {
 }
 
 void printText(const Json& info) {
-    fmt::print("scene       {}\n", info["scene"].get<std::string>());
+    fmt::print("scene       {}\n", plainText(info["scene"].get<std::string>()));
     for (const char* key : {"triangles", "meshes", "instances", "materials", "textures"})
         fmt::print("{:<12}{}\n", key, info[key].get<std::size_t>());
     fmt::print("bounds      {} .. {} m\n", vectorText(info["bounds"]["lower"]), vectorText(info["bounds"]["upper"]));
@@ -154,7 +158,7 @@ void addInfoCommand(CLI::App& app, int& exitCode) {
         for (const std::string& warning : loaded->warnings) printWarning(warning);
         const Json info = describe(options->scene, *loaded);
         if (options->json)
-            fmt::print("{}\n", info.dump(2, ' ', false, Json::error_handler_t::replace));
+            fmt::print("{}", jsonText(info));
         else
             printText(info);
     });

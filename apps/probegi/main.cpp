@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <new>
+#include <system_error>
 
 #include "commands.h"
 #include "terminal.h"
@@ -70,9 +73,20 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    keepStandardStreams();
+    int exitCode = 1;
+    std::error_code printing;
     try {
-        return run(argc, argv);
-    } catch (const std::exception& error) {  // out of memory, or a defect of ours
-        return printError({probegi::ErrorCode::outOfMemory, fmt::format("stopped by an exception: {}", error.what())});
+        exitCode = run(argc, argv);
+    } catch (const std::bad_alloc&) {
+        printError({probegi::ErrorCode::outOfMemory, "there is not enough memory for this; ask for less of it"});
+    } catch (const std::exception& error) {
+        const auto* system = dynamic_cast<const std::system_error*>(&error);
+        if (std::ferror(stdout) && system)
+            printing = system->code();  // closing tells
+        else
+            printError({probegi::ErrorCode::invalidArgument,
+                        fmt::format("the program has met a defect of its own ({}); please report it", error.what())});
     }
+    return closeStandardOutput(exitCode, printing);
 }

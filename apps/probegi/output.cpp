@@ -2,50 +2,71 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
+#include <nlohmann/json.hpp>
 #include <system_error>
+
+#include "probegi/io.h"
 
 namespace probegi::tool {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// A file that writing would replace: not a device, a pipe or a stream of this process.
+bool replaceable(const fs::path& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    return !fs::exists(status) || fs::is_regular_file(status);
+}
+
+bool sameFile(const fs::path& a, const fs::path& b) {
+    std::error_code error;
+    if (fs::equivalent(a, b, error)) return true;
+    return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error) && !error;
+}
+
+}  // namespace
+
 std::vector<std::string_view> pictureExtensions() {
     return {".png", ".exr"};
 }
 
-Result<void> checkOutput(const fs::path& path, const std::vector<std::string_view>& extensions) {
+Result<void> Outputs::claim(std::string option, const fs::path& path, const std::vector<std::string_view>& extensions) {
     const std::string extension = path.extension().string();
     if (!extensions.empty() && std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
         return fail(ErrorCode::unsupported,
-                    fmt::format("'{}' must end in {}", path.string(), fmt::join(extensions, " or ")));
-    std::error_code ignored;
-    if (fs::is_directory(path, ignored))
-        return fail(ErrorCode::writeFailed, fmt::format("'{}' is a folder; give the name of a file", path.string()));
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, ignored))
-        return fail(ErrorCode::writeFailed,
-                    fmt::format("the folder '{}' does not exist; create it first", folder.string()));
-    if (access(folder.c_str(), W_OK | X_OK) != 0)
-        return fail(ErrorCode::writeFailed,
-                    fmt::format("the folder '{}' cannot be written to; choose another one", folder.string()));
+                    fmt::format("{} '{}' must end in {}", option, path.string(), fmt::join(extensions, " or ")));
+    if (auto writable = checkWritable(path); !writable)
+        return fail(writable.error().code, fmt::format("{} {}", option, writable.error().message));
+    if (replaceable(path))
+        for (const Claimed& other : m_claimed)
+            if (sameFile(other.path, path))
+                return fail(ErrorCode::invalidArgument,
+                            fmt::format("{} and {} are both '{}'; give each a file of its own", other.option, option,
+                                        path.string()));
+    m_claimed.push_back({std::move(option), path});
+    return {};
+}
+
+Result<void> Outputs::keepApartFrom(const std::vector<fs::path>& inputs) const {
+    for (const Claimed& output : m_claimed)
+        for (const fs::path& input : inputs)
+            if (replaceable(output.path) && sameFile(output.path, input))
+                return fail(ErrorCode::invalidArgument,
+                            fmt::format("{} '{}' would overwrite a file that is read; choose another name",
+                                        output.option, output.path.string()));
     return {};
 }
 
 Result<void> writeText(const fs::path& path, std::string_view text) {
-    fs::path temporary = path;
-    temporary += fmt::format(".{}.tmp", getpid());
-    std::ofstream file(temporary, std::ios::binary);
-    file << text;
-    file.close();
-    std::error_code code;
-    if (file) fs::rename(temporary, path, code);
-    if (file && !code) return {};
-    fs::remove(temporary, code);
-    return fail(ErrorCode::writeFailed,
-                fmt::format("'{}' could not be written; check the folder and the free space", path.string()));
+    return writeFile(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+std::string jsonText(const nlohmann::ordered_json& json) {
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::size_t peakMemoryBytes() {

@@ -84,8 +84,9 @@ Result<GridDesc> parseVolume(std::string_view text) {
     grid.origin = *origin;
     grid.spacing = single ? glm::vec3((*spacing)[0]) : glm::vec3((*spacing)[0], (*spacing)[1], (*spacing)[2]);
     grid.counts = *counts;
-    if (!(grid.spacing.x > 0 && grid.spacing.y > 0 && grid.spacing.z > 0))
-        return expected(text, "a volume: its spacing must be above 0 metres");
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(grid.spacing[axis] >= 1e-6f && grid.spacing[axis] <= 1e9f))
+            return expected(text, "a volume: its spacing must be 1e-6 to 1e9 metres");
     return grid;
 }
 
@@ -140,6 +141,18 @@ CLI::Validator inRange(double lower, double upper) {
             return fmt::format("'{}' is not a number from {} to {}", text, lower, upper);
         },
         "");
+}
+
+void addUnpackLimit(CLI::App& command, ReadLimits& limits) {
+    limits.name = "--unpack-limit";
+    command
+        .add_option("--unpack-limit", limits.megabytes,
+                    "MB that the pixels of a small file may fill, its geometry a sixteenth; any file may fill 64 times "
+                    "its own size")
+        ->type_name("MB")
+        ->check(wholeNumber())
+        ->check(inRange(1, 1 << 20))
+        ->capture_default_str();
 }
 
 CLI::Validator wholeNumber() {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "probegi/grid.h"
+#include "probegi/image.h"
 #include "probegi/tracer.h"
 
 namespace probegi::tool {
@@ -42,6 +43,9 @@ CLI::Validator inRange(double lower, double upper);
 
 /// Refuses what CLI11 would wrap around: a minus sign before an unsigned number.
 CLI::Validator wholeNumber();
+
+/// --unpack-limit. Also puts its name into the limits, for their errors.
+void addUnpackLimit(CLI::App& command, ReadLimits& limits);
 
 /// Turns the name of an enumerator into its number, which CLI11 reads; other names are refused with the list of names.
 template <class Enum>

@@ -124,9 +124,10 @@ void checkOptions(const CLI::App& command, const RenderOptions& options) {
 }
 
 Result<void> render(const RenderOptions& options) {
-    if (auto checked = checkOutput(options.output, pictureExtensions()); !checked) return checked;
+    Outputs outputs;
+    if (auto claimed = outputs.claim("-o", options.output, pictureExtensions()); !claimed) return claimed;
     if (!options.stats.empty())
-        if (auto checked = checkOutput(options.stats, {}); !checked) return checked;
+        if (auto claimed = outputs.claim("--stats", options.stats); !claimed) return claimed;
     warnAboutUnusedOptions(options);
     const auto context = makeContext(options.scene.threads);
     if (!context) return context.error();
@@ -134,6 +135,7 @@ Result<void> render(const RenderOptions& options) {
     if (!backend) return backend.error();
     const auto setup = loadSetup(options.scene);
     if (!setup) return setup.error();
+    if (auto apart = outputs.keepApartFrom(setup->files); !apart) return apart;
     const auto tracer = (*backend)->makeTracer(*setup->scene, setup->pose);
     if (!tracer) return tracer.error();
 

@@ -40,7 +40,7 @@ std::string statsJson(const RenderStats& stats) {
         {"updateMs", {{"trace", ms.trace}, {"shade", ms.shade}, {"blend", ms.blend}, {"total", ms.total}}},
         {"pictureMs", stats.pictureMs},
         {"peakMemoryBytes", peakMemoryBytes()}};
-    return json.dump(2) + "\n";
+    return jsonText(json);
 }
 
 }  // namespace probegi::tool

@@ -66,7 +66,7 @@ std::string commandLine(const CLI::App& command) {
 
 /// What a person calls the scene: the file's name without its folders.
 std::string sceneTitle(const std::string& scene) {
-    return scene.rfind("builtin:", 0) == 0 ? scene : fs::path(scene).filename().string();
+    return scene.rfind("builtin:", 0) == 0 ? scene : plainText(fs::path(scene).filename().string());
 }
 
 ReportSettings settingsOf(const ReportOptions& options) {
@@ -81,13 +81,41 @@ ReportSettings settingsOf(const ReportOptions& options) {
     return settings;
 }
 
-Result<void> makeFolder(const fs::path& folder) {
+/// Whether a file is one of those that a scene's pictures are written to, or could be.
+bool isPictureOf(const std::string& prefix, const fs::path& folder, const fs::path& file) {
+    std::error_code error;
+    const std::string extension = file.extension().string();
+    const fs::path beside = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    return (extension == ".png" || extension == ".exr") && file.filename().string().starts_with(prefix + "-") &&
+           fs::equivalent(beside, folder, error);
+}
+
+/// The folder, and whether the files of a page can be written there without harm to the scenes.
+Result<void> makeFolder(const fs::path& folder, const std::vector<LoadedSetup>& setups,
+                        const std::vector<std::string>& prefixes) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error)
         return fail(ErrorCode::writeFailed, fmt::format("The folder '{}' cannot be made ({}): choose another with -o",
                                                         folder.string(), error.message()));
-    return checkOutput(folder / "report.html", {});
+    Outputs outputs;
+    for (const char* name : {"report.html", "report.json"})
+        if (auto claimed = outputs.claim("-o", folder / name); !claimed) return claimed;
+    for (const LoadedSetup& setup : setups)
+        if (auto apart = outputs.keepApartFrom(setup.files); !apart) return apart;
+    for (const LoadedSetup& setup : setups)
+        for (const fs::path& file : setup.files)
+            for (const std::string& prefix : prefixes)
+                if (isPictureOf(prefix, folder, file))
+                    return fail(ErrorCode::invalidArgument,
+                                fmt::format("a picture of the report could overwrite '{}', which is read; choose "
+                                            "another folder with -o",
+                                            file.string()));
+    return {};
+}
+
+const std::string& sceneName(const ReportOptions& options, std::size_t scene) {
+    return scene == 0 ? options.scene.scene : options.more[scene - 1];
 }
 
 /// One bar over all pictures of all scenes.
@@ -125,7 +153,7 @@ std::string keyNumbers(const std::string& name, const RenderedScene& scene) {
         "  light over the path tracer's: {:.3f} at the median of {} probes, {:.3f} in the picture (blocks {:.3f} to "
         "{:.3f})\n"
         "  FLIP error: {:.3f} without GI, {:.3f} with the field; an exact picture {:.3f} for the reference's noise\n",
-        name, verdictOf(scene).sentence, probeCount(scene.grid), field.update.total, field.description,
+        plainText(name), verdictOf(scene).sentence, probeCount(scene.grid), field.update.total, field.description,
         field.ratio.median, scene.truth.probes.size(), ratio.mean, ratio.low, ratio.high,
         scene.none.whole.difference.flip, scene.ddgi.whole.difference.flip, scene.noiseFloor.flip);
 }
@@ -139,30 +167,32 @@ Result<void> writeReport(const ReportOptions& options, const CLI::App& command) 
     if (!backend) return backend.error();
     const auto setups = loadAll(options);
     if (!setups) return setups.error();
-    if (auto made = makeFolder(folder); !made) return made;
+    std::set<std::string> taken;
+    std::vector<std::string> prefixes;
+    for (std::size_t i = 0; i < setups->size(); ++i) prefixes.push_back(filePrefix(sceneName(options, i), taken));
+    if (auto made = makeFolder(folder, *setups, prefixes); !made) return made;
     ReportSettings settings = settingsOf(options);
     planProgress(*setups, settings, bar);
 
-    Report report{"ProbeGI report", commandLine(command), legendColours(), {}};
+    Report report{"ProbeGI report", plainText(commandLine(command)), legendColours(), {}};
     nlohmann::json numbers = nlohmann::json::array();
     std::string summary;
-    std::set<std::string> taken;
     for (std::size_t i = 0; i < setups->size(); ++i) {
-        const std::string& name = i == 0 ? options.scene.scene : options.more[i - 1];
+        const std::string& name = sceneName(options, i);
         const LoadedSetup& setup = (*setups)[i];
         const auto rendered = renderForReport(*context, **backend, setup, settings);
         if (!rendered) return rendered.error();
-        auto section = describeScene(*rendered, {folder, filePrefix(name, taken), sceneTitle(name)}, !options.plain);
+        auto section = describeScene(*rendered, {folder, prefixes[i], sceneTitle(name)}, !options.plain);
         if (!section) return section.error();
         report.scenes.push_back(std::move(*section));
         numbers.push_back(sceneNumbers(*rendered));
         numbers.back()["scene"] = name;
         summary += keyNumbers(name, *rendered);
     }
-    if (auto written = writeText(folder / "report.json", numbers.dump(2) + "\n"); !written) return written;
+    if (auto written = writeText(folder / "report.json", jsonText(numbers)); !written) return written;
     if (auto written = writeText(folder / "report.html", reportHtml(report)); !written) return written;
     bar.clear();
-    fmt::print("{}{}\n", summary, (folder / "report.html").string());
+    fmt::print("{}{}\n", summary, plainText((folder / "report.html").string()));
     return {};
 }
 
@@ -201,6 +231,7 @@ void addReportOptions(CLI::App& command, ReportOptions& options) {
                      "all materials as matt surfaces of their base colour");
     command.add_option("--seed", options.settings.seed, "another number, other noise; equal numbers, equal pictures")
         ->type_name("N")
+        ->check(wholeNumber())
         ->capture_default_str();
 }
 

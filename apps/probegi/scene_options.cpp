@@ -92,6 +92,7 @@ void addSceneArgument(CLI::App& command, SceneOptions& options) {
         ->check(inRange(-1e6, 1e6))
         ->capture_default_str();
     addBuiltinOptions(command, options.builtin);
+    addUnpackLimit(command, options.limits);
 }
 
 void addSceneOptions(CLI::App& command, SceneOptions& options) {

@@ -31,16 +31,22 @@ bool hasEmission(const Scene& scene, const ScenePose& pose) {
 
 // Pictures of skies often go a little below zero at saturated colours; what is no number at all is refused.
 Result<void> cleanSky(HdrImage& image, const std::string& path) {
+    constexpr float kBrightest = 1e20f;  // Sky::image
     for (glm::vec3& pixel : image.pixels) {
         if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y) || !std::isfinite(pixel.z))
             return fail(ErrorCode::malformed,
                         fmt::format("--sky '{}' holds infinite or undefined values; repair the picture", path));
         pixel = glm::max(pixel, glm::vec3(0.0f));
+        if (std::max({pixel.x, pixel.y, pixel.z}) > kBrightest)
+            return fail(ErrorCode::malformed,
+                        fmt::format("--sky '{}' has a pixel of {:.3g} W/sr/m2; {:g} is the brightest that can be "
+                                    "computed with, repair the picture",
+                                    path, std::max({pixel.x, pixel.y, pixel.z}), kBrightest));
     }
     return {};
 }
 
-Result<Sky> parseSky(const std::string& text) {
+Result<Sky> parseSky(const std::string& text, const ReadLimits& limits) {
     Sky sky;
     if (const auto color = parseVector(text)) {
         if (color->x < 0 || color->y < 0 || color->z < 0)
@@ -48,7 +54,7 @@ Result<Sky> parseSky(const std::string& text) {
         sky.radiance = *color;
         return sky;
     }
-    auto image = readImage(text);
+    auto image = readImage(text, limits);
     if (!image)
         return fail(image.error().code,
                     fmt::format("--sky is neither R,G,B nor a readable picture: {}", image.error().message));
@@ -68,10 +74,14 @@ Result<Lighting> makeLighting(const SceneOptions& options, const Scene& scene, c
         if (light && positive(light->intensity)) lighting.lights.push_back(*light);
     };
     for (const std::string& sun : options.suns) add(parseSun(sun));
-    for (const std::string& point : options.points) add(parsePoint(point));
+    for (const std::string& point : options.points)
+        add(parsePoint(point).transform([&](PlacedLight light) {
+            light.position -= scene.origin;
+            return light;
+        }));
     lighting.sky = scene.sky;
     if (!options.sky.empty()) {
-        auto sky = parseSky(options.sky);
+        auto sky = parseSky(options.sky, options.limits);
         if (!sky) return sky.error();
         lighting.sky = std::move(*sky);
     }
@@ -97,7 +107,7 @@ Result<PlacedCamera> findCamera(const std::string& wanted, const ScenePose& pose
                 fmt::format("--camera '{}' is not in the scene; its cameras are {}", wanted, cameraNames(pose)));
 }
 
-Result<PlacedCamera> makeCamera(const SceneOptions& options, const ScenePose& pose) {
+Result<PlacedCamera> makeCamera(const SceneOptions& options, const ScenePose& pose, glm::vec3 origin) {
     PlacedCamera camera = pose.cameras.empty() ? overviewCamera(pose.bounds) : pose.cameras.front();
     if (!options.camera.empty()) {
         const auto found = findCamera(options.camera, pose);
@@ -105,8 +115,8 @@ Result<PlacedCamera> makeCamera(const SceneOptions& options, const ScenePose& po
         camera = *found;
     }
     if (!options.lookFrom.empty() || !options.lookAt.empty()) {
-        const glm::vec3 from = options.lookFrom.empty() ? camera.position : *parseVector(options.lookFrom);
-        const glm::vec3 at = options.lookAt.empty() ? from + camera.forward : *parseVector(options.lookAt);
+        const glm::vec3 from = options.lookFrom.empty() ? camera.position : *parseVector(options.lookFrom) - origin;
+        const glm::vec3 at = options.lookAt.empty() ? from + camera.forward : *parseVector(options.lookAt) - origin;
         if (!(glm::distance(from, at) > 0))
             return fail(ErrorCode::invalidArgument, "--look-at is where the camera stands; choose another point");
         camera = lookAt(from, at, camera.yfov);
@@ -116,7 +126,11 @@ Result<PlacedCamera> makeCamera(const SceneOptions& options, const ScenePose& po
 }
 
 Result<GridDesc> makeGrid(const SceneOptions& options, const Scene& scene, const ScenePose& pose) {
-    if (!options.volume.empty()) return parseVolume(options.volume);
+    if (!options.volume.empty())
+        return parseVolume(options.volume).transform([&](GridDesc grid) {
+            grid.origin -= scene.origin;
+            return grid;
+        });
     PlacementDesc placement;
     if (!options.probes.empty())
         placement.counts = *parseCounts(options.probes);
@@ -160,10 +174,10 @@ std::vector<std::string> gridWarnings(const LoadedSetup& setup) {
 }  // namespace
 
 Result<LoadedScene> readScene(const SceneOptions& options) {
-    if (options.scene.rfind(kBuiltinPrefix, 0) != 0) return loadScene(options.scene);
+    if (options.scene.rfind(kBuiltinPrefix, 0) != 0) return loadScene(options.scene, options.limits);
     auto scene = makeBuiltinScene(std::string_view(options.scene).substr(kBuiltinPrefix.size()), options.builtin);
     if (!scene) return scene.error();
-    return LoadedScene{std::move(*scene), {}};
+    return LoadedScene{std::move(*scene), {}, {}};
 }
 
 float shownExposure(const LoadedSetup& setup, const HdrImage& color) {
@@ -179,6 +193,7 @@ Result<LoadedSetup> loadSetup(const SceneOptions& options) {
     if (!loaded) return loaded.error();
     LoadedSetup setup;
     setup.warnings = std::move(loaded->warnings);
+    setup.files = std::move(loaded->files);
     for (const std::string& warning : setup.warnings) printWarning(warning);
     setup.scene = std::make_unique<Scene>(std::move(loaded->scene));
     setup.pose = poseAt(*setup.scene, options.timeOfScene);
@@ -189,6 +204,7 @@ Result<LoadedSetup> loadSetup(const SceneOptions& options) {
     auto lighting = makeLighting(options, *setup.scene, setup.pose);
     if (!lighting) return lighting.error();
     setup.lighting = std::move(*lighting);
+    if (!options.sky.empty() && setup.lighting.sky.textured()) setup.files.push_back(options.sky);
     if (!hasLight(*setup.scene, setup.pose, setup.lighting))
         return fail(ErrorCode::invalidArgument,
                     fmt::format("'{}' has no light, its picture would be black; add one with --sun X,Y,Z,LUX, "
@@ -199,7 +215,7 @@ Result<LoadedSetup> loadSetup(const SceneOptions& options) {
             ErrorCode::invalidArgument,
             fmt::format("'{}' has no triangles, there is nothing to light; choose another scene", options.scene));
 
-    const auto camera = makeCamera(options, setup.pose);
+    const auto camera = makeCamera(options, setup.pose, setup.scene->origin);
     if (!camera) return camera.error();
     setup.camera = *camera;
     const auto grid = makeGrid(options, *setup.scene, setup.pose);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,6 +31,7 @@ struct SceneOptions {
 
     std::string volume, probes;      ///< --volume, --probes
     std::string exposure = "scene";  ///< --exposure
+    ReadLimits limits;               ///< --unpack-limit
 };
 
 /// Adds SCENE, all overrides and --threads to a command.
@@ -48,6 +50,7 @@ struct LoadedSetup {
     float exposure = 1.0f;              ///< that was asked for, or what the scene suggests
     bool automaticExposure = false;     ///< of what is shown: from the picture
     std::vector<std::string> warnings;  ///< of the reader, and of a grid that leaves surfaces out; one sentence each
+    std::vector<std::filesystem::path> files;  ///< all that were read
 };
 
 /// Loads or makes the scene, and nothing else.

@@ -1,9 +1,11 @@
 #include "terminal.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <optional>
@@ -17,10 +19,40 @@ namespace {
 constexpr double kQuietSeconds = 0.5;  // shorter stages draw nothing
 constexpr int kBarCells = 28;
 
+constexpr std::size_t kLongestSentence = 1500;  // bytes; it may quote names of any length
+
+/// One character of UTF-8.
+struct Character {
+    std::uint32_t code = 0;
+    std::size_t bytes = 1;
+    bool valid = false;
+};
+
+Character firstCharacter(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return std::uint32_t(static_cast<unsigned char>(text[i])); };
+    const std::uint32_t lead = byte(0);
+    if (lead < 0x80) return {lead, 1, true};
+    const std::size_t bytes = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+    constexpr std::uint32_t kSmallest[] = {0, 0, 0x80, 0x800, 0x10000};
+    if (lead < 0xc0 || lead > 0xf7 || text.size() < bytes) return {};
+    std::uint32_t code = lead & (0x7fu >> bytes);
+    for (std::size_t i = 1; i < bytes; ++i) {
+        if ((byte(i) & 0xc0) != 0x80) return {};
+        code = code << 6 | (byte(i) & 0x3f);
+    }
+    const bool surrogate = code >= 0xd800 && code <= 0xdfff;
+    if (code < kSmallest[bytes] || code > 0x10ffff || surrogate) return {};
+    return {code, bytes, true};
+}
+
+bool isControl(std::uint32_t code) {
+    const bool turnsDirection =
+        (code >= 0x200e && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
+    return code < 0x20 || (code >= 0x7f && code < 0xa0) || turnsDirection;
+}
+
 std::string oneLine(std::string_view text) {
-    std::string line(text);
-    std::replace_if(
-        line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    std::string line = plainText(text, kLongestSentence);
     while (!line.empty() && line.back() == ' ') line.pop_back();
     return line;
 }
@@ -151,6 +183,43 @@ void LoopProgress::done(int count) {
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - m_impl->start).count();
     const double fraction = double(count) / double(m_impl->total);
     m_impl->bar.draw({m_impl->stage, std::min(fraction, 0.999), elapsed, elapsed / fraction - elapsed});
+}
+
+std::string plainText(std::string_view text, std::size_t most) {
+    std::string plain;
+    for (std::size_t at = 0; at < text.size();) {
+        if (text.size() > most && at >= most / 2 && at < text.size() - most / 2) {
+            plain += " ... ";
+            at = text.size() - most / 2;
+            while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80) ++at;
+            continue;
+        }
+        const Character character = firstCharacter(text.substr(at));
+        const bool space = text[at] == '\n' || text[at] == '\r' || text[at] == '\t';
+        if (character.valid && !isControl(character.code))
+            plain += text.substr(at, character.bytes);
+        else
+            plain += space ? ' ' : '?';
+        at += character.bytes;
+    }
+    return plain;
+}
+
+int closeStandardOutput(int exitCode, std::error_code reason) {
+    if (std::fflush(stdout) != 0)
+        reason = std::error_code(errno, std::generic_category());
+    else if (!std::ferror(stdout))
+        return exitCode;
+    const std::string why = reason ? fmt::format(" ({})", reason.message()) : std::string();
+    const int failed = printError(
+        {ErrorCode::writeFailed, fmt::format("what is printed cannot be written{}; check where it goes", why)});
+    return exitCode ? exitCode : failed;
+}
+
+void keepStandardStreams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        // For reading only: printing to a closed stream stays an error.
+        if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDONLY) != stream) return;
 }
 
 void printWarning(std::string_view sentence) {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "probegi/context.h"
@@ -51,6 +52,22 @@ private:
     struct Impl;
     std::unique_ptr<Impl> m_impl;
 };
+
+/// Text of a file's or of the command line's as a terminal may show it: control characters, which could move the cursor
+/// or rename the window, those that turn the direction of writing, and bytes that are no UTF-8 become "?", line breaks
+/// become spaces. A text of more than `most` bytes loses its middle.
+std::string plainText(std::string_view text, std::size_t most = std::string_view::npos);
+
+/// What of a name is shown in a line of a table.
+constexpr std::size_t kShownName = 80;
+
+/// Makes sure that what was printed has arrived. `reason`: why printing failed before, where that is known. Returns the
+/// exit code: that of the run, or 1 and "error: ...".
+int closeStandardOutput(int exitCode, std::error_code reason = {});
+
+/// Takes the numbers of standard streams that whoever started the program has closed, so that no file gets one of them
+/// and with it what is printed. To be called first.
+void keepStandardStreams();
 
 /// "warning: ..." on stderr.
 void printWarning(std::string_view sentence);

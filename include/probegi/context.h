@@ -42,7 +42,8 @@ struct ContextDesc {
 /// handle); there is no global state, two contexts are independent.
 class PROBEGI_API Context {
 public:
-    /// Errors: invalidArgument (threads is out of range), unsupported (several threads, and none are there).
+    /// Errors: invalidArgument (threads is out of range), unsupported (several threads, and none are there),
+    /// outOfMemory (the system does not start so many).
     static Result<Context> create(const ContextDesc& desc = {});
 
     int threads() const noexcept;  ///< how many work at most

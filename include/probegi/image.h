@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <string>
 #include <vector>
 
 #include "probegi/context.h"
@@ -39,12 +40,23 @@ PROBEGI_API glm::vec3 toDisplay(glm::vec3 linear, const ToneMap& toneMap);
 /// divides the exposure. 1 where nothing shines. Values that are not finite or negative count as black.
 float autoExposure(const HdrImage& image);
 
-/// Reads .exr, .hdr, .png or .jpg (the 8-bit ones are decoded from sRGB to linear).
-/// Errors: fileNotFound, fileUnreadable, malformed, unsupported (extension), outOfMemory (over 2^28 pixels).
-PROBEGI_API Result<HdrImage> readImage(const std::filesystem::path& path);
+/// How much memory a file may fill: small ones can claim any amount. Whatever it unpacks to within 64 times its own
+/// size is always allowed.
+struct ReadLimits {
+    /// What pixels may fill beyond that, MB (2^20 bytes); 1 to 2^20. Geometry and text, of which more is made later,
+    /// may fill a sixteenth of it.
+    std::uint64_t megabytes = 1024;
+    /// What the sentence of an error calls this limit; a program with an option for it gives the option's name.
+    std::string name = "ReadLimits::megabytes";
+};
 
-/// Writes .exr (float, linear, no tone map) or .png (8-bit sRGB through toneMap), by extension. The file appears
-/// whole or not at all (temporary name, then rename). Errors: unsupported (extension), writeFailed, invalidArgument.
+/// Reads .exr, .hdr, .png or .jpg (the 8-bit ones are decoded from sRGB to linear).
+/// Errors: fileNotFound, fileUnreadable, malformed, unsupported (extension), outOfMemory (over 2^28 pixels, or over the
+/// limits).
+PROBEGI_API Result<HdrImage> readImage(const std::filesystem::path& path, const ReadLimits& limits = {});
+
+/// Writes .exr (float, linear, no tone map) or .png (8-bit sRGB through toneMap), by extension, as writeFile() does.
+/// Errors: unsupported (extension), writeFailed, invalidArgument.
 PROBEGI_API Result<void> writeImage(const std::filesystem::path& path, const HdrImage& image,
                                     const ToneMap& toneMap = {});
 

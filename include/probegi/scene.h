@@ -124,8 +124,9 @@ struct AnimationChannel {
 
 /// Light from infinitely far away.
 struct Sky {
-    glm::vec3 radiance{0.0f};  ///< W sr^-1 m^-2; a factor on the image where there is one
-    HdrImage image{};          ///< equirectangular, centre column = direction -Z, top row = +Y; empty: constant
+    glm::vec3 radiance{0.0f};  ///< W sr^-1 m^-2, 0 to 1e20; a factor on the image where there is one
+    HdrImage image{};  ///< equirectangular, centre column = direction -Z, top row = +Y, 0 to 1e20 with the factor;
+                       ///< empty: constant
     bool textured() const { return image.width > 0; }
     bool black() const { return radiance.x <= 0 && radiance.y <= 0 && radiance.z <= 0; }
 };
@@ -143,6 +144,9 @@ struct Scene {
     Sky sky{};
     std::optional<GridDesc> grid{};  ///< a probe grid that came with the scene; empty: placed automatically
     float exposure = 1.0f;           ///< suggested tone-map exposure for pictures of this scene
+    /// Where the point (0, 0, 0) of all coordinates here lies in those of the scene's file, metres. Not zero only where
+    /// loadScene() moved a scene that lay far from the origin.
+    glm::vec3 origin{0.0f};
 
     /// Adds a root node and returns its index.
     int addNode(Node node) {

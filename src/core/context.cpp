@@ -1,12 +1,43 @@
 #include "probegi/context.h"
 
 #include <algorithm>
+#include <latch>
+#include <new>
+#include <string>
+#include <system_error>
 #include <thread>
+#include <vector>
 
 #include "core/context_impl.h"
 #include "core/sentence.h"
 
 namespace probegi {
+
+namespace {
+
+/// Whether so many threads can run beside this one. TBB, which starts them later, ends the program where it cannot.
+Result<void> tryThreads(int count) {
+    std::latch end(1);
+    std::vector<std::jthread> threads;
+    const char* reason = nullptr;
+    std::string why;
+    try {
+        threads.reserve(std::size_t(count));
+        while (int(threads.size()) < count) threads.emplace_back([&] { end.wait(); });
+    } catch (const std::system_error& error) {
+        why = error.code().message();
+        reason = why.c_str();
+    } catch (const std::bad_alloc&) {
+        reason = "no memory";
+    }
+    end.count_down();
+    if (!reason) return {};
+    return fail(ErrorCode::outOfMemory,
+                sentence("the system starts only ", threads.size() + 1, " of ", count + 1, " threads (", reason,
+                         "); ask for fewer, or raise its limits on processes and memory (ulimit -u, ulimit -v)"));
+}
+
+}  // namespace
 
 Result<Context> Context::create(const ContextDesc& desc) {
     if (desc.threads < 0 || desc.threads > 1024)
@@ -20,7 +51,10 @@ Result<Context> Context::create(const ContextDesc& desc) {
     auto impl = std::make_shared<Impl>();
     impl->desc = desc;
     impl->threads = desc.threads > 0 ? desc.threads : all;
-    if (!desc.parallelFor) impl->workers = makeWorkers(impl->threads);
+    if (!desc.parallelFor) {
+        if (auto tried = tryThreads(impl->threads - 1); !tried) return tried.error();
+        impl->workers = makeWorkers(impl->threads);
+    }
     return Context(std::move(impl));
 }
 

@@ -11,6 +11,10 @@ namespace probegi {
 /// diagonal away, the rest is room for the moments' spread.
 inline constexpr float kMaxDistanceInDiagonals = 1.5f;
 
+/// Metres between probes.
+inline constexpr float kSmallestSpacing = 1e-6f;
+inline constexpr float kLargestSpacing = 1e9f;
+
 /// Sizes that follow from a FieldDesc. A probe's texels lie together, row by row, without the border: on the CPU the
 /// border's texels are found by octWrapTexel instead of being stored a second time.
 struct FieldLayout {

@@ -3,7 +3,7 @@
 #include <glm/common.hpp>
 
 #include "core/sentence.h"
-#include "probegi/field.h"
+#include "field/layout.h"
 
 namespace probegi {
 
@@ -64,6 +64,11 @@ Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc) {
         }
         grid.counts = desc.counts;
     }
+    const float closest = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+    if (closest < kSmallestSpacing)
+        return fail(ErrorCode::invalidArgument,
+                    sentence("the scene is only ", largest, " m large: its probes would be ", closest, " m apart, and ",
+                             kSmallestSpacing, " m is the least; is it in metres? scale it up"));
     grid.origin = bounds.centre() - 0.5f * grid.spacing * glm::vec3(grid.counts - 1);
     return grid;
 }

@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "core/sentence.h"
 #include "field/layout.h"
+#include "kernels/ray_offset.h"
 
 namespace probegi {
 
@@ -17,14 +20,29 @@ Result<void> checkMapSize(const char* name, int size, int highest) {
     return fail(ErrorCode::invalidArgument, sentence(name, " is ", size, "; it must be even"));
 }
 
+/// Rays leave a surface from a little beside it, as far as coordinates are rounded there; that must be little for the
+/// probes too, or their light is lost.
+Result<void> checkDistance(const GridDesc& grid) {
+    constexpr float kMostOfSpacing = 0.25f;
+    const glm::vec3 last = grid.origin + grid.spacing * glm::vec3(grid.counts - 1);
+    const glm::vec3 corner = glm::max(glm::abs(grid.origin), glm::abs(last));
+    const float closest = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+    if (kernels::rayOffset(corner, 0.0f) <= kMostOfSpacing * closest) return {};
+    return fail(ErrorCode::invalidArgument,
+                sentence("the probe grid reaches ", std::max({corner.x, corner.y, corner.z}),
+                         " m from the origin, where coordinates are too coarse for probes ", closest,
+                         " m apart; move the scene to the origin, or set probes farther apart"));
+}
+
 Result<void> checkGrid(const GridDesc& grid) {
     std::int64_t probes = 1;
     for (int axis = 0; axis < 3; ++axis) {
         if (!std::isfinite(grid.origin[axis])) return fail(ErrorCode::invalidArgument, "grid.origin is not finite");
-        if (auto ok = checkRange("grid.spacing", grid.spacing[axis], 1e-6, 1e9); !ok) return ok;
+        if (auto ok = checkRange("grid.spacing", grid.spacing[axis], kSmallestSpacing, kLargestSpacing); !ok) return ok;
         if (auto ok = checkRange("grid.counts", grid.counts[axis], 2, 1024); !ok) return ok;
         probes *= grid.counts[axis];
     }
+    if (auto ok = checkDistance(grid); !ok) return ok;
     return checkRange("the number of probes in the grid", double(probes), 8, 1 << 24);
 }
 

@@ -30,15 +30,14 @@ double numberOf(const tinygltf::Value& object, const char* member, int element, 
     return value.IsNumber() ? value.GetNumberAsDouble() : fallback;
 }
 
-LoadedScene importGltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& folder) {
+LoadedScene importGltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& folder,
+                       const ReadLimits& limits) {
     LoadedScene out;
-    const tinygltf::Model model = parseGltf(bytes, folder, out.warnings);
+    const tinygltf::Model model = parseGltf(bytes, folder, limits, out);
     std::size_t size = bytes.size();
     for (const tinygltf::Buffer& buffer : model.buffers) size += buffer.data.size();
     for (const tinygltf::Image& image : model.images) size += image.image.size();
-    constexpr std::uint64_t kGeometryRoom = 64 << 20;
-    constexpr std::uint64_t kPixelRoom = 256 << 20;  // a plain picture of 4096 x 4096 fits into a few kilobytes
-    Import import{model, out, Budget(kGeometryRoom, size), Budget(kPixelRoom, size), {}, {}, {}, {}};
+    Import import{model, out, Budget(limits, size, kGeometryShare), Budget(limits, size), {}, {}, {}, {}};
     importMaterials(import);
     importLights(import);
     importCameras(import);
@@ -49,9 +48,9 @@ LoadedScene importGltf(std::span<const std::uint8_t> bytes, const std::filesyste
 }
 
 Result<LoadedScene> loadGltfFromMemory(std::string_view name, std::span<const std::uint8_t> bytes,
-                                       const std::filesystem::path& folder) {
+                                       const std::filesystem::path& folder, const ReadLimits& limits) {
     return guarded(name, [&] {
-        LoadedScene loaded = importGltf(bytes, folder);
+        LoadedScene loaded = importGltf(bytes, folder, limits);
         if (const auto valid = validate(loaded.scene); !valid) throw Refused{valid.error()};
         return loaded;
     });

@@ -7,29 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "io/refused.h"
+#include "io/budget.h"
 #include "io/tinygltf.h"
 #include "probegi/io.h"
+#include "scene/checks.h"
 
 namespace probegi::io {
-
-/// Memory that a file may make us allocate: in proportion to its own size, with room for small files. Without it a few
-/// kilobytes that name the same vertices or the same picture a thousand times fill any machine.
-class Budget {
-public:
-    Budget(std::uint64_t room, std::uint64_t fileBytes) : m_limit(room + 64 * fileBytes) {}
-
-    void charge(std::uint64_t bytes) {
-        m_used += bytes;
-        if (m_used > m_limit) {
-            refuse(ErrorCode::outOfMemory, "unpacks to over {} MB, out of proportion to its size", m_limit >> 20);
-        }
-    }
-
-private:
-    std::uint64_t m_limit;
-    std::uint64_t m_used = 0;
-};
 
 /// One import under way: what is read, and what has been made of it. Each importX() below fills its part of the scene.
 struct Import {
@@ -60,10 +43,7 @@ void importNodes(Import& import);       ///< needs lights and cameras; numbers t
 void importMeshes(Import& import);      ///< needs nodes and materials
 void importAnimations(Import& import);  ///< needs nodes
 
-/// "mesh 3 'column'".
-inline std::string title(std::string_view kind, std::size_t index, std::string_view name) {
-    return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, name);
-}
+using checks::title;  ///< "mesh 3 'column'"
 
 /// An index of the file that must exist. Returns it as an offset.
 inline std::size_t checkedIndex(std::string_view user, std::string_view kind, int index, std::size_t count) {

@@ -4,7 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "io/refused.h"
+#include "io/gltf_strict.h"
+#include "io/gltf_text.h"
 
 namespace probegi::io {
 
@@ -33,34 +34,6 @@ Bytes jsonOf(Bytes bytes) {
     const std::size_t length = wordAt(bytes, kJsonLengthAt);
     if (length > bytes.size() - kJsonAt) refuseMalformed("ends before its JSON does; it has been cut off");
     return bytes.subspan(kJsonAt, length);
-}
-
-/// tinygltf recurses into the JSON: real files are about 10 deep, 100,000 would overflow the stack. (The parser itself
-/// does not recurse; its own callback for this takes time that is quadratic in the length of an array.)
-void checkDepth(const json& root) {
-    constexpr int kMaxDepth = 64;
-    std::vector<const json*> level{&root};
-    for (int depth = 0; !level.empty(); ++depth) {
-        if (depth > kMaxDepth) refuseMalformed("its JSON is nested more than {} deep", kMaxDepth);
-        std::vector<const json*> next;
-        for (const json* value : level) {
-            for (const json& child : *value) {
-                if (child.is_structured()) next.push_back(&child);
-            }
-        }
-        level = std::move(next);
-    }
-}
-
-json parse(Bytes text) {
-    try {
-        json root = json::parse(text.begin(), text.end());
-        if (!root.is_object()) refuseMalformed("its JSON is not an object");
-        checkDepth(root);
-        return root;
-    } catch (const json::parse_error& e) {
-        refuseMalformed("is not glTF: its JSON breaks off at byte {}", e.byte);
-    }
 }
 
 /// The elements of an array member; none where it is missing or something else (tinygltf says so later).
@@ -155,11 +128,13 @@ bool isBinaryGltf(Bytes bytes) {
     return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
 }
 
-Bytes prepareGltf(Bytes bytes, std::vector<std::uint8_t>& storage) {
-    json root = parse(jsonOf(bytes));
+Bytes prepareGltf(Bytes bytes, Budget& budget, std::vector<std::uint8_t>& storage) {
+    json root = parseGltfText(jsonOf(bytes), budget);
+    bool changed = checkStrictly(root);
     checkBuffers(root);
     checkImages(root);
-    if (!dropCompressedIndices(root)) return bytes;
+    changed |= dropCompressedIndices(root);
+    if (!changed) return bytes;
     storage = replaceJson(bytes, root);
     return storage;
 }

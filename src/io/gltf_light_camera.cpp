@@ -8,12 +8,11 @@ namespace probegi::io {
 namespace {
 
 glm::vec3 intensityOf(Import& import, const std::string& user, const tinygltf::Light& light) {
-    constexpr float kLargest = 1e20f;
     glm::vec3 intensity(0.0f);
     for (int c = 0; c < 3; ++c) {
         const double color = std::size_t(c) < light.color.size() ? light.color[std::size_t(c)] : 1.0;
         const float value = finiteFloat(user, "intensity", color * light.intensity);
-        intensity[c] = std::clamp(value, 0.0f, kLargest);
+        intensity[c] = std::clamp(value, 0.0f, checks::kBrightest);
         if (intensity[c] != value) import.warn(fmt::format("{}: intensity {} was limited", user, value));
     }
     return intensity;

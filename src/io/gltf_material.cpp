@@ -119,14 +119,13 @@ AlphaMode alphaModeOf(Import& import, const std::string& user, const std::string
 }
 
 glm::vec3 emissionOf(Import& import, const std::string& user, const tinygltf::Material& m) {
-    constexpr float kLargest = 1e20f;
     double strength = 1.0;
     if (const auto* extension = findExtension(m.extensions, "KHR_materials_emissive_strength")) {
         strength = numberOf(*extension, "emissiveStrength", 1.0);
     }
     glm::vec3 emission(0.0f);
     for (int c = 0; c < 3 && std::size_t(c) < m.emissiveFactor.size(); ++c) {
-        emission[c] = factor(import, user, "emission", m.emissiveFactor[std::size_t(c)] * strength, kLargest);
+        emission[c] = factor(import, user, "emission", m.emissiveFactor[std::size_t(c)] * strength, checks::kBrightest);
     }
     return emission;
 }

@@ -5,7 +5,7 @@
 
 #include "io/file_bytes.h"
 #include "io/gltf_json.h"
-#include "io/refused.h"
+#include "scene/checks.h"
 
 namespace probegi::io {
 
@@ -25,6 +25,7 @@ bool supported(const std::string& extension) {
 /// Where files that the glTF names may be, and how many bytes of them may still be read.
 struct Neighbours {
     fs::path folder;
+    std::vector<fs::path>& read;
     std::uint64_t bytesLeft = 0xffffffffu;
 };
 
@@ -35,10 +36,12 @@ fs::path resolve(const Neighbours& neighbours, const std::string& uri) {
         std::any_of(relative.begin(), relative.end(), [](const fs::path& part) { return part == ".."; });
     if (uri.find("://") != std::string::npos || relative.is_absolute() || leaves ||
         uri.find('\\') != std::string::npos || uri.find('\0') != std::string::npos) {
-        refuse(ErrorCode::unsupported, "refers to '{}'; only files in its own folder or below are read", uri);
+        refuse(ErrorCode::unsupported, "refers to '{}'; only files in its own folder or below are read",
+               checks::quotable(uri));
     }
     if (neighbours.folder.empty()) {
-        refuse(ErrorCode::unsupported, "refers to the file '{}', but was not read from a folder", uri);
+        refuse(ErrorCode::unsupported, "refers to the file '{}', but was not read from a folder",
+               checks::quotable(uri));
     }
     return neighbours.folder / relative;
 }
@@ -46,7 +49,8 @@ fs::path resolve(const Neighbours& neighbours, const std::string& uri) {
 bool fileExists(const std::string& uri, void* user) {
     std::error_code error;
     if (!fs::exists(resolve(*static_cast<Neighbours*>(user), uri), error)) {
-        refuse(ErrorCode::fileNotFound, "needs the file '{}', which is missing; put it beside the scene", uri);
+        refuse(ErrorCode::fileNotFound, "needs the file '{}', which is missing; put it beside the scene",
+               checks::quotable(uri));
     }
     return true;
 }
@@ -58,9 +62,12 @@ std::string sameName(const std::string& uri, void*) {
 bool readNeighbour(std::vector<unsigned char>* out, std::string*, const std::string& uri, void* user) {
     auto& neighbours = *static_cast<Neighbours*>(user);
     try {
-        *out = readFile(resolve(neighbours, uri), neighbours.bytesLeft);
+        const fs::path path = resolve(neighbours, uri);
+        *out = readFile(path, neighbours.bytesLeft);
+        if (out->empty()) refuseMalformed("is empty");
+        neighbours.read.push_back(path);
     } catch (const Refused& refused) {
-        refuse(refused.error.code, "needs the file '{}', which {}", uri, refused.error.message);
+        refuse(refused.error.code, "needs the file '{}', which {}", checks::quotable(uri), refused.error.message);
     }
     neighbours.bytesLeft -= out->size();
     return true;
@@ -92,41 +99,52 @@ void checkExtensions(const tinygltf::Model& model, std::vector<std::string>& war
     for (const std::string& extension : model.extensionsRequired) {
         if (!supported(extension)) {
             refuse(ErrorCode::unsupported, "requires the glTF extension {}, which is not supported; export without it",
-                   extension);
+                   checks::quotable(extension));
         }
     }
     for (const std::string& extension : model.extensionsUsed) {
         if (!supported(extension)) {
-            warnings.push_back(
-                fmt::format("the optional glTF extension {} is not supported and is ignored", extension));
+            warnings.push_back(fmt::format("the optional glTF extension {} is not supported and is ignored",
+                                           checks::quotable(extension)));
         }
     }
 }
 
-}  // namespace
-
-tinygltf::Model parseGltf(std::span<const std::uint8_t> bytes, const fs::path& folder,
-                          std::vector<std::string>& warnings) {
-    std::vector<std::uint8_t> storage;
-    bytes = prepareGltf(bytes, storage);
-    Neighbours neighbours{folder};
-    tinygltf::TinyGLTF reader;
-    reader.SetFsCallbacks({fileExists, sameName, readNeighbour, writeNothing, &neighbours});
-    reader.SetImageLoader(keepEncoded, nullptr);
+/// tinygltf's model, whatever is in it.
+tinygltf::Model load(tinygltf::TinyGLTF& reader, std::span<const std::uint8_t> bytes, std::string& warning) try {
     tinygltf::Model model;
     std::string error;
-    std::string warning;
     const auto size = unsigned(bytes.size());
     const bool good = isBinaryGltf(bytes)
                           ? reader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size, "")
                           : reader.LoadASCIIFromString(&model, &error, &warning,
                                                        reinterpret_cast<const char*>(bytes.data()), size, "");
     if (!good) refuseMalformed("is not valid glTF: {}", error.empty() ? "damaged" : oneLine(std::move(error)));
+    return model;
+} catch (const std::bad_alloc&) {
+    throw;
+} catch (const std::exception&) {  // it asks JSON for what is not there
+    refuseMalformed("is not valid glTF: a value is missing or of the wrong kind; export it again");
+}
+
+}  // namespace
+
+tinygltf::Model parseGltf(std::span<const std::uint8_t> bytes, const fs::path& folder, const ReadLimits& limits,
+                          LoadedScene& out) {
+    std::vector<std::uint8_t> storage;
+    Budget budget(limits, bytes.size(), kGeometryShare);
+    bytes = prepareGltf(bytes, budget, storage);
+    Neighbours neighbours{folder, out.files};
+    tinygltf::TinyGLTF reader;
+    reader.SetFsCallbacks({fileExists, sameName, readNeighbour, writeNothing, &neighbours});
+    reader.SetImageLoader(keepEncoded, nullptr);
+    std::string warning;
+    tinygltf::Model model = load(reader, bytes, warning);
     if (!model.asset.version.starts_with("2.")) {
         refuse(ErrorCode::unsupported, "is glTF version '{}'; only 2 is supported", oneLine(model.asset.version));
     }
-    if (!warning.empty()) warnings.push_back(oneLine(std::move(warning)));
-    checkExtensions(model, warnings);
+    if (!warning.empty()) out.warnings.push_back(oneLine(std::move(warning)));
+    checkExtensions(model, out.warnings);
     return model;
 }
 

@@ -3,17 +3,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "io/tinygltf.h"
+#include "probegi/io.h"
 
 namespace probegi::io {
 
 /// tinygltf's model of the file, with every external file read and every image still encoded. Refuses versions other
-/// than 2 and required extensions that ProbeGI lacks; adds a warning for each optional one. Indices in the model are
-/// not checked yet.
+/// than 2 and required extensions that ProbeGI lacks; adds a warning for each optional one, and the files that were
+/// read. Indices in the model are not checked yet.
 tinygltf::Model parseGltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& folder,
-                          std::vector<std::string>& warnings);
+                          const ReadLimits& limits, LoadedScene& out);
 
 }  // namespace probegi::io

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "io/refused.h"
+#include "io/budget.h"
 
 namespace probegi::io {
 
@@ -20,22 +20,22 @@ bool isJpeg(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-HdrImage decodeImage(std::span<const std::uint8_t> bytes, ImageFormat format) {
+HdrImage decodeImage(std::span<const std::uint8_t> bytes, ImageFormat format, const ReadLimits& limits) {
     if (bytes.empty()) refuseMalformed("is empty");
     switch (format) {
         case ImageFormat::exr:
-            return decodeExr(bytes);
+            return decodeExr(bytes, limits);
         case ImageFormat::hdr:
             if (!beginsWith(bytes, {'#', '?'})) refuseMalformed("is not a Radiance .hdr picture");
-            return decodeHdr(bytes);
+            return decodeHdr(bytes, limits);
         case ImageFormat::png:
             if (!isPng(bytes)) refuseMalformed("is not a PNG picture");
-            return decodePng(bytes);
+            return decodePng(bytes, limits);
         case ImageFormat::jpeg:
             break;
     }
     if (!isJpeg(bytes)) refuseMalformed("is not a JPEG picture");
-    return decodeJpeg(bytes);
+    return decodeJpeg(bytes, limits);
 }
 
 std::uint64_t texturePixels(std::span<const std::uint8_t> bytes) {
@@ -64,6 +64,16 @@ void checkImageSize(std::int64_t width, std::int64_t height, std::size_t fileByt
         refuseMalformed("claims {} x {} pixels in {} bytes, more than any compression allows", width, height,
                         fileBytes);
     }
+}
+
+HdrImage emptyImage(int width, int height, std::size_t fileBytes, const ReadLimits& limits) {
+    HdrImage image;
+    image.width = width;
+    image.height = height;
+    const std::size_t pixels = std::size_t(width) * std::size_t(height);
+    Budget(limits, fileBytes).charge(pixels * sizeof(glm::vec3));
+    image.pixels.reserve(pixels);
+    return image;
 }
 
 }  // namespace probegi::io

@@ -13,7 +13,7 @@ namespace probegi::io {
 enum class ImageFormat : std::uint8_t { exr, hdr, png, jpeg };
 
 /// Linear pixels of a picture file; what the 8 and 16 bit formats store is taken as sRGB.
-HdrImage decodeImage(std::span<const std::uint8_t> bytes, ImageFormat format);
+HdrImage decodeImage(std::span<const std::uint8_t> bytes, ImageFormat format, const ReadLimits& limits = {});
 
 /// A PNG or JPEG as a scene's texture, told apart by its first bytes.
 TextureImage decodeTexture(std::span<const std::uint8_t> bytes);
@@ -22,14 +22,18 @@ TextureImage decodeTexture(std::span<const std::uint8_t> bytes);
 std::uint64_t texturePixels(std::span<const std::uint8_t> bytes);
 
 // One format each; the bytes are known to begin as that format does.
-HdrImage decodeExr(std::span<const std::uint8_t> bytes);
-HdrImage decodeHdr(std::span<const std::uint8_t> bytes);
-HdrImage decodePng(std::span<const std::uint8_t> bytes);
-HdrImage decodeJpeg(std::span<const std::uint8_t> bytes);
+HdrImage decodeExr(std::span<const std::uint8_t> bytes, const ReadLimits& limits = {});
+HdrImage decodeHdr(std::span<const std::uint8_t> bytes, const ReadLimits& limits = {});
+HdrImage decodePng(std::span<const std::uint8_t> bytes, const ReadLimits& limits = {});
+HdrImage decodeJpeg(std::span<const std::uint8_t> bytes, const ReadLimits& limits = {});
 TextureImage decodePngTexture(std::span<const std::uint8_t> bytes);
 TextureImage decodeJpegTexture(std::span<const std::uint8_t> bytes);
 std::uint64_t pngPixels(std::span<const std::uint8_t> bytes);
 std::uint64_t jpegPixels(std::span<const std::uint8_t> bytes);
+
+/// A picture of this size with room for its pixels but none of them yet, so that a file which has fewer than it claims
+/// fills no more memory than it has. Refuses what is beyond the limits.
+HdrImage emptyImage(int width, int height, std::size_t fileBytes, const ReadLimits& limits);
 
 /// 32-bit float R, G, B, ZIP-compressed.
 std::vector<std::uint8_t> encodeExr(const HdrImage& image);

@@ -12,8 +12,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "io/budget.h"
 #include "io/image_codec.h"
-#include "io/refused.h"
 
 namespace probegi::io {
 
@@ -61,8 +61,20 @@ struct Window {
     int height = 0;
 };
 
+/// Bytes that OpenEXR unpacks at a time: a block of lines, or a row of tiles.
+std::uint64_t blockBytes(const Imf::Header& header, const Window& window, int channels) {
+    constexpr int kMostLines = 256;  // in a block of any compression
+    auto across = std::uint64_t(window.width);
+    auto down = std::uint64_t(std::min(window.height, kMostLines));
+    if (header.hasTileDescription()) {
+        across = std::max<std::uint64_t>(across, header.tileDescription().xSize);
+        down = header.tileDescription().ySize;
+    }
+    return across * down * std::uint64_t(channels) * sizeof(float);
+}
+
 /// The area that has pixels, once nothing in the header asks for more memory than the file can justify.
-Window checkedWindow(const Imf::Header& header, std::size_t fileBytes) {
+Window checkedWindow(const Imf::Header& header, std::size_t fileBytes, const ReadLimits& limits) {
     constexpr int kFarAway = 1 << 24;
     const Imath::Box2i& box = header.dataWindow();
     if (std::min(box.min.x, box.min.y) < -kFarAway || std::max(box.max.x, box.max.y) > kFarAway) {
@@ -81,11 +93,12 @@ Window checkedWindow(const Imf::Header& header, std::size_t fileBytes) {
                    tile.xSize, tile.ySize);
         }
     }
+    Budget(limits, fileBytes).charge(blockBytes(header, window, channels));
     return window;
 }
 
 /// Looks at the header before OpenEXR allocates anything from it.
-Window inspect(std::span<const std::uint8_t> bytes) {
+Window inspect(std::span<const std::uint8_t> bytes, const ReadLimits& limits) {
     SpanReader stream(bytes);
     std::array<std::uint8_t, 8> start{};
     stream.read(reinterpret_cast<char*>(start.data()), int(start.size()));
@@ -99,7 +112,7 @@ Window inspect(std::span<const std::uint8_t> bytes) {
     }
     Imf::Header header;
     header.readFrom(stream, version);
-    return checkedWindow(header, bytes.size());
+    return checkedWindow(header, bytes.size(), limits);
 }
 
 /// Which channel feeds red, green and blue; null: stays 0.
@@ -126,28 +139,43 @@ std::array<const char*, 3> pickChannels(const Imf::ChannelList& channels) {
     return names;
 }
 
+/// Where OpenEXR writes the channels of these names.
+void setFrame(Imf::InputFile& file, HdrImage& image, const Window& window, std::span<const char* const> names) {
+    Imf::FrameBuffer frame;
+    for (std::size_t c = 0; c < names.size(); ++c) {
+        if (!names[c]) continue;
+        frame.insert(names[c],
+                     Imf::Slice::Make(Imf::FLOAT, &image.pixels[0][int(c)], window.origin, window.width, window.height,
+                                      sizeof(glm::vec3), sizeof(glm::vec3) * std::size_t(window.width)));
+    }
+    file.setFrameBuffer(frame);
+}
+
 }  // namespace
 
-HdrImage decodeExr(std::span<const std::uint8_t> bytes) {
-    const Window window = inspect(bytes);
+HdrImage decodeExr(std::span<const std::uint8_t> bytes, const ReadLimits& limits) try {
+    const Window window = inspect(bytes, limits);
     SpanReader stream(bytes);
     Imf::InputFile file(stream, 0);
     const std::array<const char*, 3> names = pickChannels(file.header().channels());
     const bool grey = names[0] && names[1] && std::strcmp(names[0], names[1]) == 0;
-    HdrImage image(window.width, window.height);
-    Imf::FrameBuffer frame;
-    for (int c = 0; c < (grey ? 1 : 3); ++c) {
-        if (!names[c]) continue;
-        frame.insert(names[c],
-                     Imf::Slice::Make(Imf::FLOAT, &image.pixels[0][c], window.origin, window.width, window.height,
-                                      sizeof(glm::vec3), sizeof(glm::vec3) * std::size_t(window.width)));
+    HdrImage image = emptyImage(window.width, window.height, bytes.size(), limits);
+    // Some lines at a time; their memory is reserved and stays where it is.
+    constexpr int kLines = 256;
+    for (int line = 0; line < window.height; line += kLines) {
+        const int end = std::min(line + kLines, window.height);
+        image.pixels.resize(std::size_t(window.width) * std::size_t(end));
+        if (line == 0) setFrame(file, image, window, grey ? std::span(names).first(1) : std::span(names));
+        file.readPixels(window.origin.y + line, window.origin.y + end - 1);
     }
-    file.setFrameBuffer(frame);
-    file.readPixels(window.origin.y, window.origin.y + window.height - 1);
     if (grey) {
         for (glm::vec3& pixel : image.pixels) pixel = glm::vec3(pixel.x);
     }
     return image;
+} catch (const std::bad_alloc&) {
+    throw;
+} catch (const std::exception& e) {
+    refuseMalformed("is not a readable EXR ({}); save it again", e.what());
 }
 
 std::vector<std::uint8_t> encodeExr(const HdrImage& image) {

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "io/file_bytes.h"
+#include "io/file_output.h"
 #include "io/image_codec.h"
 #include "io/refused.h"
 #include "probegi/image.h"
@@ -37,10 +38,10 @@ void checkToneMap(const ToneMap& toneMap) {
 
 }  // namespace
 
-Result<HdrImage> readImage(const std::filesystem::path& path) {
+Result<HdrImage> readImage(const std::filesystem::path& path, const ReadLimits& limits) {
     return guarded(path.string(), [&] {
         const ImageFormat format = formatToRead(path);
-        return decodeImage(readFile(path), format);
+        return decodeImage(readFile(path), format, limits);
     });
 }
 
@@ -52,12 +53,12 @@ Result<void> writeImage(const std::filesystem::path& path, const HdrImage& image
                    image.height, image.pixels.size());
         }
         const std::string extension = lowerExtension(path);
-        if (extension == ".exr") return writeFile(path, encodeExr(image));
+        if (extension == ".exr") return writeBytes(path, encodeExr(image));
         if (extension != ".png") {
             refuse(ErrorCode::unsupported, "pictures are written as .exr or .png, not as '{}'", extension);
         }
         checkToneMap(toneMap);
-        writeFile(path, encodePng(image, toneMap));
+        writeBytes(path, encodePng(image, toneMap));
     });
 }
 

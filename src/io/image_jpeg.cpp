@@ -63,15 +63,15 @@ private:
 
 }  // namespace
 
-HdrImage decodeJpeg(Bytes bytes) {
+HdrImage decodeJpeg(Bytes bytes, const ReadLimits& limits) {
     JpegReader reader(bytes);
+    HdrImage image = emptyImage(reader.width(), reader.height(), bytes.size(), limits);
     std::vector<std::uint8_t> codes(3 * std::size_t(reader.width()) * std::size_t(reader.height()));
     reader.decode(codes, TJPF_RGB);
     std::array<float, 256> linear{};
     for (std::size_t code = 0; code < linear.size(); ++code) linear[code] = kernels::decodeSrgb(float(code) / 255.0f);
-    HdrImage image(reader.width(), reader.height());
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        image.pixels[i] = {linear[codes[3 * i]], linear[codes[3 * i + 1]], linear[codes[3 * i + 2]]};
+    for (std::size_t i = 0; i < codes.size(); i += 3) {
+        image.pixels.emplace_back(linear[codes[i]], linear[codes[i + 1]], linear[codes[i + 2]]);
     }
     return image;
 }

@@ -7,7 +7,6 @@
 #include "io/image_codec.h"
 #include "io/refused.h"
 #include "io/stb.h"
-#include "kernels/colour.h"
 #include "kernels/tone_map.h"
 
 namespace probegi::io {
@@ -22,9 +21,9 @@ using StbPixels = std::unique_ptr<T[], FreeStb>;
 
 using Bytes = std::span<const std::uint8_t>;
 
-[[noreturn]] void refuseDamaged(const char* format) {
+[[noreturn]] void refuseDamaged() {
     const char* reason = stbi_failure_reason();
-    refuseMalformed("is not a readable {} ({}); save it again", format, reason ? reason : "damaged");
+    refuseMalformed("is not a readable Radiance .hdr ({}); save it again", reason ? reason : "damaged");
 }
 
 struct Size {
@@ -32,14 +31,14 @@ struct Size {
     int height = 0;
 };
 
-Size checkedSize(Bytes bytes, const char* format) {
+Size checkedSize(Bytes bytes) {
     if (bytes.empty()) refuseMalformed("is empty");
     if (bytes.size() > INT_MAX) refuse(ErrorCode::outOfMemory, "a picture file of over 2 GiB is not supported");
     Size size;
     int channels = 0;
     if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &size.width, &size.height, &channels)) {
-        refuseMalformed("is not a readable {}: its header is damaged or claims over 2^28 pixels; save it again",
-                        format);
+        refuseMalformed(
+            "is not a readable Radiance .hdr: its header is damaged or claims over 2^28 pixels; save it again");
     }
     checkImageSize(size.width, size.height, bytes.size());
     return size;
@@ -79,51 +78,20 @@ void appendBytes(void* context, void* data, int size) {
 
 }  // namespace
 
-HdrImage decodeHdr(Bytes bytes) {
-    Size size = checkedSize(bytes, "Radiance .hdr");
+HdrImage decodeHdr(Bytes bytes, const ReadLimits& limits) {
+    Size size = checkedSize(bytes);
+    HdrImage image = emptyImage(size.width, size.height, bytes.size(), limits);
     HdrSource source{bytes};
     const stbi_io_callbacks callbacks{HdrSource::read, HdrSource::skip, HdrSource::atEnd};
     int channels = 0;
     const StbPixels<float> pixels(
         stbi_loadf_from_callbacks(&callbacks, &source, &size.width, &size.height, &channels, 3));
     if (source.pastEnd) refuseMalformed("is a Radiance .hdr picture that ends too early; save it again");
-    if (!pixels) refuseDamaged("Radiance .hdr");
-    HdrImage image(size.width, size.height);
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        image.pixels[i] = {pixels[3 * i], pixels[3 * i + 1], pixels[3 * i + 2]};
+    if (!pixels) refuseDamaged();
+    const std::size_t count = std::size_t(size.width) * std::size_t(size.height);
+    for (std::size_t i = 0; i < count; ++i) {
+        image.pixels.emplace_back(pixels[3 * i], pixels[3 * i + 1], pixels[3 * i + 2]);
     }
-    return image;
-}
-
-/// Read as 16 bits a channel, which loses nothing of either depth.
-HdrImage decodePng(Bytes bytes) {
-    Size size = checkedSize(bytes, "PNG");
-    int channels = 0;
-    const StbPixels<stbi_us> pixels(
-        stbi_load_16_from_memory(bytes.data(), int(bytes.size()), &size.width, &size.height, &channels, 3));
-    if (!pixels) refuseDamaged("PNG");
-    std::vector<float> linear(65536);
-    for (std::size_t code = 0; code < linear.size(); ++code) linear[code] = kernels::decodeSrgb(float(code) / 65535.0f);
-    HdrImage image(size.width, size.height);
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        image.pixels[i] = {linear[pixels[3 * i]], linear[pixels[3 * i + 1]], linear[pixels[3 * i + 2]]};
-    }
-    return image;
-}
-
-std::uint64_t pngPixels(Bytes bytes) {
-    const Size size = checkedSize(bytes, "PNG");
-    return std::uint64_t(size.width) * std::uint64_t(size.height);
-}
-
-TextureImage decodePngTexture(Bytes bytes) {
-    checkedSize(bytes, "PNG");
-    TextureImage image;
-    int channels = 0;
-    const StbPixels<stbi_uc> pixels(
-        stbi_load_from_memory(bytes.data(), int(bytes.size()), &image.width, &image.height, &channels, 4));
-    if (!pixels) refuseDamaged("PNG");
-    image.rgba.assign(pixels.get(), pixels.get() + 4 * std::size_t(image.width) * std::size_t(image.height));
     return image;
 }
 

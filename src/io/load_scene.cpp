@@ -5,6 +5,7 @@
 #include "io/harness_ini.h"
 #include "io/refused.h"
 #include "probegi/io.h"
+#include "scene/recentre.h"
 
 namespace probegi {
 
@@ -12,35 +13,49 @@ using namespace io;
 
 namespace {
 
-/// Settings beside the scene, if there are any. Returns what of them is ignored, one sentence each.
-Result<std::vector<std::string>> addSettings(std::filesystem::path path, Scene& scene) {
+/// validate(), with the file whose fault it would be.
+Result<void> validateFrom(const std::filesystem::path& path, const Scene& scene) {
+    return validate(scene).map_error([&](const Error& error) {
+        return Error{error.code, fmt::format("{}: {}", path.string(), error.message)};
+    });
+}
+
+/// Settings beside the scene, if there are any, and what of them is ignored, one sentence each.
+Result<void> addSettings(std::filesystem::path path, LoadedScene& loaded) {
     path.replace_extension(".ini");
     std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) return std::vector<std::string>();
-    return guarded(path.string(), [&] {
+    if (!std::filesystem::is_regular_file(path, error)) return {};
+    const auto ignored = guarded(path.string(), [&] {
         constexpr std::uint64_t kMaxBytes = 1 << 20;
         const std::vector<std::uint8_t> bytes = readFile(path, kMaxBytes);
         std::istringstream stream(std::string(bytes.begin(), bytes.end()));
-        std::vector<std::string> ignored = addHarnessSettings(stream, scene);
-        for (std::string& sentence : ignored) sentence = fmt::format("{}: {}", path.string(), sentence);
-        return ignored;
+        return addHarnessSettings(stream, loaded.scene);
     });
+    if (!ignored) return ignored.error();
+    loaded.files.push_back(path);
+    for (const std::string& sentence : *ignored)
+        loaded.warnings.push_back(fmt::format("{}: {}", path.string(), sentence));
+    return validateFrom(path, loaded.scene);
 }
 
 }  // namespace
 
-Result<LoadedScene> loadScene(const std::filesystem::path& path) {
+Result<LoadedScene> loadScene(const std::filesystem::path& path, const ReadLimits& limits) {
     Result<LoadedScene> loaded = guarded(path.string(), [&] {
         const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-        return importGltf(readFile(path), folder);
+        LoadedScene read = importGltf(readFile(path), folder, limits);
+        read.files.push_back(path);
+        return read;
     });
     if (!loaded) return loaded;
-    const auto ignored = addSettings(path, loaded->scene);
-    if (!ignored) return ignored.error();
-    loaded->warnings.insert(loaded->warnings.end(), ignored->begin(), ignored->end());
+    if (const auto valid = validateFrom(path, loaded->scene); !valid) return valid.error();
+    if (const auto added = addSettings(path, *loaded); !added) return added.error();
+    if (recentre(loaded->scene))
+        loaded->warnings.push_back(fmt::format(
+            "{}: the scene lies far from the origin, where coordinates are too coarse for light; it is computed around "
+            "({:g}, {:g}, {:g}) m instead (Scene::origin)",
+            path.string(), loaded->scene.origin.x, loaded->scene.origin.y, loaded->scene.origin.z));
     if (loaded->scene.name.empty()) loaded->scene.name = path.stem().string();
-    const auto valid = validate(loaded->scene);
-    if (!valid) return fail(valid.error().code, fmt::format("{}: {}", path.string(), valid.error().message));
     return loaded;
 }
 

@@ -29,6 +29,7 @@ template <class... Args>
 }
 
 /// Runs body() and turns everything it throws, libraries' exceptions included, into an Error that begins with `name`.
+/// What a library says of a file is for its own developers: where it can help a person, its caller words it.
 template <class Body>
 auto guarded(std::string_view name, const Body& body) -> Result<std::invoke_result_t<Body>> {
     const auto sentence = [&](std::string_view what) { return fmt::format("{}: {}", name, what); };
@@ -43,8 +44,8 @@ auto guarded(std::string_view name, const Body& body) -> Result<std::invoke_resu
         return fail(refused.error.code, sentence(refused.error.message));
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::outOfMemory, sentence("needs more memory than there is"));
-    } catch (const std::exception& e) {
-        return fail(ErrorCode::malformed, sentence(fmt::format("is damaged ({})", e.what())));
+    } catch (const std::exception&) {
+        return fail(ErrorCode::malformed, sentence("is damaged or of an unknown kind; save it again"));
     }
 }
 

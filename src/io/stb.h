@@ -1,8 +1,7 @@
 #pragma once
 
-// stb with the same settings in every file that includes it. Its JPEG reader is left out: the fuzzer makes it write
-// beyond its Huffman tables, and libjpeg-turbo does not.
-#define STBI_ONLY_PNG
+// stb with the same settings in every file that includes it. It reads Radiance .hdr only: the fuzzer makes its JPEG
+// reader write beyond its Huffman tables, and its PNG reader unpacks whatever a file holds before it looks at it.
 #define STBI_ONLY_HDR
 #define STBI_NO_STDIO
 #define STBI_MAX_DIMENSIONS 65536

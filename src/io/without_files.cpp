@@ -13,13 +13,20 @@ Error withoutFiles() {
 
 }  // namespace
 
-Result<LoadedScene> loadScene(const std::filesystem::path&) {
+Result<LoadedScene> loadScene(const std::filesystem::path&, const ReadLimits&) {
     return withoutFiles();
 }
-Result<HdrImage> readImage(const std::filesystem::path&) {
+Result<HdrImage> readImage(const std::filesystem::path&, const ReadLimits&) {
     return withoutFiles();
 }
 Result<void> writeImage(const std::filesystem::path&, const HdrImage&, const ToneMap&) {
+    return withoutFiles();
+}
+
+Result<void> writeFile(const std::filesystem::path&, std::span<const std::uint8_t>) {
+    return withoutFiles();
+}
+Result<void> checkWritable(const std::filesystem::path&) {
     return withoutFiles();
 }
 

@@ -38,9 +38,13 @@ inline bool within(float v, float lower, float upper) {
     return v >= lower && v <= upper;
 }
 
-/// Finite and not negative.
+/// The brightest light, W sr^-1 m^-2 or the unit of a lamp: from 1e21 on probes can no longer store it, and sums of the
+/// largest floats are infinite.
+inline constexpr float kBrightest = 1e20f;
+
+/// From 0 to kBrightest.
 inline bool energy(glm::vec3 v) {
-    return finite(v) && v.x >= 0 && v.y >= 0 && v.z >= 0;
+    return within(v.x, 0, kBrightest) && within(v.y, 0, kBrightest) && within(v.z, 0, kBrightest);
 }
 
 inline std::string text(glm::vec3 v) {
@@ -50,9 +54,18 @@ inline std::string text(glm::vec4 v) {
     return sentence("(", v.x, ", ", v.y, ", ", v.z, ", ", v.w, ")");
 }
 
+/// A name of a file's as a sentence can quote it: files may have names of any length.
+inline std::string quotable(std::string_view name) {
+    constexpr std::size_t kMost = 80;
+    if (name.size() <= kMost) return std::string(name);
+    std::size_t end = kMost;
+    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;  // not within a UTF-8 character
+    return std::string(name.substr(0, end)) + "...";
+}
+
 /// "material 3 'brick'", or "material 3" for one without a name.
 inline std::string title(std::string_view kind, std::size_t index, std::string_view name) {
-    return name.empty() ? sentence(kind, " ", index) : sentence(kind, " ", index, " '", name, "'");
+    return name.empty() ? sentence(kind, " ", index) : sentence(kind, " ", index, " '", quotable(name), "'");
 }
 
 template <class... Parts>

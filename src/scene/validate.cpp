@@ -35,15 +35,15 @@ Result<void> validateExtent(const Scene& scene) {
 
 Result<void> validateSurroundings(const Scene& scene) {
     const Sky& sky = scene.sky;
-    if (!energy(sky.radiance)) return malformed("sky: radiance ", text(sky.radiance), " must be finite and >= 0");
+    if (!energy(sky.radiance)) return malformed("sky: radiance ", text(sky.radiance), " must be 0 to ", kBrightest);
     const HdrImage& image = sky.image;
     if (image.width < 0 || image.height < 0 || image.pixels.size() != std::size_t(image.width) * image.height) {
         return malformed("sky image: ", image.pixels.size(), " pixels do not make ", image.width, " x ", image.height);
     }
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        if (!energy(image.pixels[i])) {
-            return malformed("sky image: pixel ", i, " is ", text(image.pixels[i]),
-                             "; radiance must be finite and >= 0");
+        if (!energy(image.pixels[i]) || !energy(image.pixels[i] * sky.radiance)) {
+            return malformed("sky image: pixel ", i, " is ", text(image.pixels[i]), " times ", text(sky.radiance),
+                             "; radiance must be 0 to ", kBrightest);
         }
     }
     if (!finite(scene.exposure) || scene.exposure <= 0) {
@@ -52,7 +52,7 @@ Result<void> validateSurroundings(const Scene& scene) {
     if (!scene.grid) return {};
     const GridDesc& grid = *scene.grid;
     if (!finite(grid.origin)) return malformed("probe grid: origin ", text(grid.origin), " must be finite");
-    if (!energy(grid.spacing) || grid.spacing.x <= 0 || grid.spacing.y <= 0 || grid.spacing.z <= 0) {
+    if (!finite(grid.spacing) || grid.spacing.x <= 0 || grid.spacing.y <= 0 || grid.spacing.z <= 0) {
         return malformed("probe grid: spacing ", text(grid.spacing), " must be finite and > 0");
     }
     std::int64_t product = 1;

@@ -42,7 +42,7 @@ Result<void> validateFactors(const std::string& what, const Material& m) {
     }
     if (!within(m.metallic, 0, 1)) return malformed(what, ": metallic ", m.metallic, " must be 0..1");
     if (!within(m.roughness, 0, 1)) return malformed(what, ": roughness ", m.roughness, " must be 0..1");
-    if (!energy(m.emission)) return malformed(what, ": emission ", text(m.emission), " must be finite and >= 0");
+    if (!energy(m.emission)) return malformed(what, ": emission ", text(m.emission), " must be 0 to ", kBrightest);
     if (!finite(m.normalScale)) return malformed(what, ": normal scale ", m.normalScale, " must be finite");
     if (!within(m.alphaCutoff, 0, 1)) return malformed(what, ": alpha cutoff ", m.alphaCutoff, " must be 0..1");
     return {};

@@ -10,7 +10,7 @@ namespace {
 
 Result<void> validateLight(const std::string& what, const Light& light) {
     if (!energy(light.intensity)) {
-        return malformed(what, ": intensity ", text(light.intensity), " must be finite and >= 0");
+        return malformed(what, ": intensity ", text(light.intensity), " must be 0 to ", kBrightest);
     }
     if (!finite(light.range) || light.range < 0) {
         return malformed(what, ": range ", light.range, " must be finite and >= 0 (0: unlimited)");

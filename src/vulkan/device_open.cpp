@@ -15,14 +15,26 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kNoLoader =
     "there is no Vulkan loader on this machine; install libvulkan1 and a driver, or use the CPU backend";
 
+// Memory that has run out is also what the loader says of a driver's description that it cannot read.
+template <class Body>
+auto asking(const Body& body) try {
+    return body();
+} catch (const vk::OutOfHostMemoryError&) {
+    throw Failure(
+        ErrorCode::unsupported,
+        "Vulkan cannot start: a driver's .json file is damaged (they lie in /usr/share/vulkan/icd.d, or where "
+        "VK_DRIVER_FILES and VK_ICD_FILENAMES say), or memory has run out; repair the file, or use the CPU "
+        "backend");
+}
+
 bool hasLayer(const vk::raii::Context& vulkan, const char* name) {
-    for (const auto& layer : vulkan.enumerateInstanceLayerProperties())
+    for (const auto& layer : asking([&] { return vulkan.enumerateInstanceLayerProperties(); }))
         if (std::strcmp(layer.layerName.data(), name) == 0) return true;
     return false;
 }
 
 bool hasInstanceExtension(const vk::raii::Context& vulkan, const char* name) {
-    for (const auto& extension : vulkan.enumerateInstanceExtensionProperties())
+    for (const auto& extension : asking([&] { return vulkan.enumerateInstanceExtensionProperties(); }))
         if (std::strcmp(extension.extensionName.data(), name) == 0) return true;
     return false;
 }
@@ -55,7 +67,8 @@ vk::raii::Instance makeInstance(const vk::raii::Context& vulkan, bool validation
         layers.push_back(kValidationLayer);
         extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     }
-    return {vulkan, vk::InstanceCreateInfo({}, &application, layers, extensions, validation ? &checks : nullptr)};
+    const vk::InstanceCreateInfo info({}, &application, layers, extensions, validation ? &checks : nullptr);
+    return asking([&] { return vk::raii::Instance(vulkan, info); });
 }
 
 // Best first: what a person would choose.

@@ -44,9 +44,15 @@ std::filesystem::path cacheFile(const vk::raii::PhysicalDevice& physical, const 
 }
 
 std::vector<std::uint8_t> readCache(const std::filesystem::path& file, std::string& warning) {
-    std::ifstream in(file, std::ios::binary);
-    if (file.empty() || !in) return {};
-    // What opens but cannot be read, as a folder, leaves the text empty. (The stream's iterators throw there.)
+    constexpr std::uintmax_t kMostBytes = 1 << 30;
+    std::error_code error;
+    // Opening a pipe would wait for ever, and a device may have no end.
+    const bool readable =
+        std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) <= kMostBytes;
+    std::ifstream in;
+    if (readable) in.open(file, std::ios::binary);
+    if (!in.is_open() && (readable || !std::filesystem::exists(file, error))) return {};
+    // What is not readable leaves the text empty.
     std::ostringstream stream;
     stream << in.rdbuf();
     const std::string text = stream.str();

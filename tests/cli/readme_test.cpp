@@ -57,7 +57,7 @@ TEST(Readme, EveryLineOfItsToolBlockWorks) {
 #if !PROBEGI_HAS_VULKAN
         if (words.front() == "devices") continue;
 #endif
-        const ToolRun run = runTool(quick(words), folder.path());
+        const ToolRun run = runTool(quick(words), {folder.path(), {}});
         EXPECT_EQ(run.exitCode, 0) << run.err;
         for (std::size_t i = 0; i + 1 < words.size(); ++i)
             if (isResult(words[i])) {

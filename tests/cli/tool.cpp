@@ -16,9 +16,10 @@ namespace probegi::test {
 
 namespace fs = std::filesystem;
 
-ToolRun runTool(const std::vector<std::string>& arguments, const fs::path& folder) {
+ToolRun runTool(const std::vector<std::string>& arguments, const ToolPlace& place) {
     const TemporaryFolder texts;
-    const std::string out = texts.file("out"), err = texts.file("err");
+    const std::string out = place.standardOutput.empty() ? texts.file("out") : place.standardOutput;
+    const std::string err = texts.file("err");
     std::string program = PROBEGI_TOOL;
     std::vector<std::string> copies = arguments;
     std::vector<char*> argv{program.data()};
@@ -30,14 +31,15 @@ ToolRun runTool(const std::vector<std::string>& arguments, const fs::path& folde
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0600);
     posix_spawn_file_actions_addopen(&files, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT, 0600);
-    if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&files, folder.c_str());
+    if (!place.folder.empty()) posix_spawn_file_actions_addchdir_np(&files, place.folder.c_str());
     pid_t child = 0;
     const int failed = posix_spawn(&child, program.c_str(), &files, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&files);
     if (failed) throw std::runtime_error("cannot start " + program);
     int status = 0;
     if (waitpid(child, &status, 0) != child) throw std::runtime_error("cannot wait for " + program);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(out), readText(err)};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, place.standardOutput.empty() ? readText(out) : std::string(),
+            readText(err)};
 }
 
 void expectRefused(const std::vector<std::string>& arguments, const std::string& mentions, int exitCode) {

@@ -12,8 +12,14 @@ struct ToolRun {
     std::string out, err;
 };
 
-/// Runs the program and waits for it, in the working folder `folder` (empty: this program's own).
-ToolRun runTool(const std::vector<std::string>& arguments, const std::filesystem::path& folder = {});
+/// Where the program runs.
+struct ToolPlace {
+    std::filesystem::path folder;  ///< working folder; empty: this program's own
+    std::string standardOutput;    ///< where what it prints goes; empty: into ToolRun::out
+};
+
+/// Runs the program and waits for it.
+ToolRun runTool(const std::vector<std::string>& arguments, const ToolPlace& place = {});
 
 /// Expects a run to be refused: this exit code, nothing on stdout, one sentence on stderr with `mentions` in it.
 void expectRefused(const std::vector<std::string>& arguments, const std::string& mentions, int exitCode);

@@ -35,7 +35,8 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{"--volume", "0,0,0:1:1x4x4"}, std::pair{"--volume", "0,0:1:4x4x4"},
                     std::pair{"--time-of-scene", "late"}, std::pair{"--wall", "1"}, std::pair{"--albedo", "1"},
                     std::pair{"--emission", "-1"}, std::pair{"--power", "0"}, std::pair{"--radius", "0"},
-                    std::pair{"--backend", "cuda"}, std::pair{"--tracer", "embree"}),
+                    std::pair{"--unpack-limit", "0"}, std::pair{"--unpack-limit", "1.5"},
+                    std::pair{"--unpack-limit", "-5"}, std::pair{"--backend", "cuda"}, std::pair{"--tracer", "embree"}),
     [](const auto& instance) {
         std::string name = instance.param.first + "_" + std::to_string(instance.index);
         std::erase_if(name, [](char c) { return c == '-'; });
@@ -83,11 +84,11 @@ TEST(Usage, MainHelpSaysWhatToTypeFirst) {
 TEST(Usage, HelpOfRenderListsEveryOption) {
     const std::string help = runTool({"render", "--help"}).out;
     for (const char* option :
-         {"--output",        "--method",       "--size",      "--camera",  "--probes",   "--rays",     "--frames",
-          "--spp",           "--time",         "--seed",      "--threads", "--aov",      "--exposure", "--sun",
-          "--point",         "--sky",          "--look-from", "--look-at", "--fov",      "--volume",   "--stats",
-          "--time-of-scene", "--diffuse-only", "--wall",      "--albedo",  "--emission", "--backend",  "--device",
-          "--tracer",        "--shader-cache", "--tolerance"})
+         {"--output",        "--method",       "--size",      "--camera",      "--probes",   "--rays",     "--frames",
+          "--spp",           "--time",         "--seed",      "--threads",     "--aov",      "--exposure", "--sun",
+          "--point",         "--sky",          "--look-from", "--look-at",     "--fov",      "--volume",   "--stats",
+          "--time-of-scene", "--diffuse-only", "--wall",      "--albedo",      "--emission", "--backend",  "--device",
+          "--tracer",        "--shader-cache", "--tolerance", "--unpack-limit"})
         EXPECT_THAT(help, HasSubstr(option));
 }
 

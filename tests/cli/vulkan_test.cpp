@@ -133,6 +133,13 @@ TEST_F(Vulkan, WithoutADriverOneSentence) {
     EXPECT_EQ(runTool(render(m_folder.file("a.exr"), {})).exitCode, 0);
 }
 
+TEST_F(Vulkan, ADamagedDriverFileIsNamed) {
+    writeText(m_folder.file("broken.json"), "nonsense");
+    const EnvironmentVariable broken("VK_DRIVER_FILES", m_folder.file("broken.json"));
+    expectRefused({"devices"}, "driver's .json file is damaged", 1);
+    expectRefused(renderOnVulkan(m_folder.file("a.exr"), {}), "driver's .json file is damaged", 1);
+}
+
 #ifdef PROBEGI_OLDER_DRIVER
 TEST_F(Vulkan, RayQueryOnADeviceWithoutItIsRefused) {
     const EnvironmentVariable older("VK_DRIVER_FILES", PROBEGI_OLDER_DRIVER);

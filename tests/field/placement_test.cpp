@@ -64,6 +64,26 @@ TEST(Grid, positionsFollowTheLinearIndex) {
     EXPECT_EQ(probeCount(grid), 60);
 }
 
+TEST(Placement, aSceneTooSmallForProbesIsToldInItsOwnTerms) {
+    const auto grid = placeGrid({{0, 0, 0}, {4e-6f, 4e-6f, 0}});
+    ASSERT_FALSE(grid);
+    EXPECT_NE(grid.error().message.find("the scene is only 4e-06 m large"), std::string::npos) << grid.error().message;
+    EXPECT_EQ(grid.error().message.find("grid."), std::string::npos) << grid.error().message;
+}
+
+TEST(FieldDesc, gridsTooFarAwayAreRefused) {
+    const auto at = [](glm::vec3 origin, float spacing) {
+        FieldDesc d;
+        d.grid = {origin, glm::vec3(spacing), glm::ivec3(8)};
+        const auto ok = validateFieldDesc(d);
+        return ok ? std::string("accepted") : ok.error().message;
+    };
+    EXPECT_EQ(at({1e4f, 0, -1e4f}, 0.5f), "accepted");
+    EXPECT_NE(at({0, -5e5f, 0}, 0.5f).find("reaches 5e+05 m from the origin"), std::string::npos);
+    EXPECT_EQ(at({0, -5e5f, 0}, 50.0f), "accepted") << "coarse coordinates do for coarse grids";
+    EXPECT_NE(at({3e38f, 0, 0}, 1.0f).find("from the origin"), std::string::npos);
+}
+
 // Every member of FieldDesc that is out of range is refused by name.
 TEST(FieldDesc, refusalsNameTheMember) {
     const auto message = [](auto&& edit) -> std::string {

@@ -1,19 +1,33 @@
 #!/usr/bin/env bash
-# Runs every fuzzer for a while on seeds made for the occasion. Usage: run.sh BUILD_FOLDER [SECONDS]
-# Exit code 1, and the offending input in BUILD_FOLDER/fuzz, if one crashes, hangs (10 s) or takes over 2 GB.
+# Runs every fuzzer on seeds made for the occasion. Usage: run.sh BUILD_FOLDER [SECONDS]
+# Without SECONDS: the same inputs each time, from one seed and nothing that earlier runs have found, so that what passes
+# once passes again: for CI. With SECONDS: so long each, other inputs each time, on from what earlier runs have found: by
+# hand, for minutes or a night, after a reader has changed.
+# Exit code 1, and the offending input in BUILD_FOLDER/fuzz, if one crashes, hangs or takes over 2 GB. To run one again:
+# BUILD_FOLDER/tests/fuzz/fuzz_gltf INPUT.
 set -euo pipefail
 
 build=${1:?name a build folder that was configured with PROBEGI_FUZZ=ON}
-seconds=${2:-60}
+seconds=${2:-}
 export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
-corpus=$build/fuzz
+if [[ -n $seconds ]]; then
+    corpus=$build/fuzz
+    length=(-max_total_time="$seconds" -timeout=10)
+    words="$seconds s from any seed"
+else
+    corpus=$build/fuzz/fixed
+    rm -rf "$corpus"
+    # A generous timeout: a busy machine is no fault of a reader.
+    length=(-seed=1 -runs=60000 -timeout=60)
+    words="60000 inputs from seed 1"
+fi
 mkdir -p "$corpus"
 "$build/tests/fuzz/fuzz_seeds" "$corpus"
 status=0
 for reader in gltf image; do
-    echo "fuzz_$reader: $seconds s"
-    "$build/tests/fuzz/fuzz_$reader" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=2048 \
-        -max_len=65536 -print_final_stats=1 -artifact_prefix="$corpus/$reader-" "$corpus/$reader" \
+    echo "fuzz_$reader: $words"
+    "$build/tests/fuzz/fuzz_$reader" "${length[@]}" -rss_limit_mb=2048 -malloc_limit_mb=2048 \
+        -max_len=65536 -print_final_stats=1 -artifact_prefix="$build/fuzz/$reader-" "$corpus/$reader" \
         >"$corpus/$reader.log" 2>&1 || status=1
     tail -n 12 "$corpus/$reader.log"
 done

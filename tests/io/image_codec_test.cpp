@@ -14,6 +14,7 @@
 #include <cstring>
 
 #include "io/refused.h"
+#include "support/memory.h"
 
 namespace probegi::test {
 namespace {
@@ -128,6 +129,28 @@ TEST(ImageCodec, RefusesExrItCannotShow) {
     refused(huge, ErrorCode::outOfMemory, "32768 x 32768");
 }
 
+// The files are long enough for what they claim to be believed, of zeros.
+TEST(ImageCodec, ExrThatClaimsMuchFillsLittle) {
+    const auto claiming = [](std::int32_t side) {
+        Bytes exr = makeExr({"R", "G", "B"});
+        const std::uint8_t name[] = "dataWindow";
+        const auto at = std::search(exr.begin(), exr.end(), std::begin(name), std::end(name));
+        const std::int32_t window[] = {0, 0, side - 1, side - 1};
+        std::memcpy(&*(at + std::ptrdiff_t(sizeof("dataWindow") + sizeof("box2i") + 4)), window, sizeof(window));
+        exr.resize(exr.size() + (1 << 20));
+        return exr;
+    };
+    const std::size_t before = peakMemory();
+    const auto beyond = decode(claiming(16384));
+    ASSERT_FALSE(beyond);
+    EXPECT_EQ(beyond.error().code, ErrorCode::outOfMemory);
+    EXPECT_THAT(beyond.error().message, HasSubstr("out of proportion"));
+    const auto within = decode(claiming(4096));
+    ASSERT_FALSE(within);
+    EXPECT_EQ(within.error().code, ErrorCode::malformed);
+    EXPECT_LT(peakMemory() - before, std::size_t(64) << 20);
+}
+
 Bytes makeJpeg(int width, int height, bool progressive) {
     const Bytes pixels(3 * std::size_t(width) * std::size_t(height), 188);  // sRGB 188 is linear 0.5
     const tjhandle handle = tjInitCompress();
@@ -167,6 +190,21 @@ TEST(ImageCodec, ReadsJpeg) {
         EXPECT_EQ(texture.rgba[3], 255);
         EXPECT_EQ(io::texturePixels(bytes), 33u * 17u);
     }
+}
+
+TEST(ImageCodec, CmykJpegIsRefusedInASentence) {
+    const Bytes pixels(4 * 16 * 16, 99);
+    const tjhandle handle = tjInitCompress();
+    unsigned char* data = nullptr;
+    unsigned long size = 0;
+    ASSERT_EQ(tjCompress2(handle, pixels.data(), 16, 0, 16, TJPF_CMYK, &data, &size, TJSAMP_444, 90, 0), 0);
+    const Bytes bytes(data, data + size);
+    tjFree(data);
+    tjDestroy(handle);
+    const auto image = decode(bytes, io::ImageFormat::jpeg);
+    ASSERT_FALSE(image);
+    EXPECT_EQ(image.error().code, ErrorCode::unsupported);
+    EXPECT_THAT(image.error().message, HasSubstr("CMYK"));
 }
 
 TEST(ImageCodec, DamagedJpegNeverCrashes) {

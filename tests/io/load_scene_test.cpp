@@ -3,8 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
+#include <unistd.h>
 
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "gltf_builder.h"
 #include "support/scenes.h"
 
 namespace probegi::test {
@@ -100,6 +105,65 @@ TEST(LoadScene, OpenArena) {
     EXPECT_EQ(vertices(scene), 7'421u);
     EXPECT_EQ(scene.cameras.size(), 9u);
     EXPECT_EQ(scene.lights.at(0).intensity, glm::vec3(60));
+}
+
+class LoadFolder : public testing::Test {
+protected:
+    LoadFolder() : m_folder(std::filesystem::temp_directory_path() / ("probegi_load_" + std::to_string(getpid()))) {
+        std::filesystem::create_directories(m_folder);
+    }
+    ~LoadFolder() override { std::filesystem::remove_all(m_folder); }
+
+    std::filesystem::path write(const char* name, const auto& bytes) const {
+        std::ofstream(m_folder / name, std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+        return m_folder / name;
+    }
+    /// A triangle in a node that stands at x.
+    std::filesystem::path writeTriangle(double x) const {
+        GltfBuilder b;
+        b.show({{"attributes", b.triangle()}});
+        b.json["nodes"][0]["translation"] = {x, 0, 0};
+        return write("a.glb", b.glb());
+    }
+
+    std::filesystem::path m_folder;
+};
+
+TEST_F(LoadFolder, AFaultOfTheSettingsIsTheirs) {
+    const auto scene = writeTriangle(0);
+    const auto settings = write("a.ini", std::string("scene.cameras.0.fov=200\n"));
+    const auto loaded = loadScene(scene);
+    ASSERT_FALSE(loaded);
+    EXPECT_THAT(loaded.error().message, testing::StartsWith(settings.string() + ": "));
+}
+
+TEST_F(LoadFolder, AllFilesThatWereReadAreListed) {
+    GltfBuilder b;
+    const Bytes png = smallPng(2, 2);
+    write("a.png", png);
+    b.append("images", {{"uri", "a.png"}});
+    b.append("textures", {{"source", 0}});
+    b.append("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    b.show({{"attributes", b.triangle()}, {"material", 0}});
+    const auto scene = write("a.glb", b.glb());
+    const auto settings = write("a.ini", std::string("scene.skyColor=1 1 1\n"));
+    const auto loaded = loadScene(scene);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_THAT(loaded->files, testing::UnorderedElementsAre(scene, settings, m_folder / "a.png"));
+}
+
+TEST_F(LoadFolder, ASceneFarAwayIsMovedAndSaysSo) {
+    const auto far = loadScene(writeTriangle(500'000.5));
+    ASSERT_TRUE(far) << far.error().message;
+    EXPECT_THAT(far->warnings, testing::ElementsAre(HasSubstr("far from the origin")));
+    const Bounds bounds = poseAt(far->scene).bounds;
+    EXPECT_EQ(bounds.lower + far->scene.origin, glm::vec3(500'000.5f, 0, 0));
+    EXPECT_LT(std::abs(bounds.upper.x), 2);
+    const auto near = loadScene(writeTriangle(10));
+    ASSERT_TRUE(near);
+    EXPECT_THAT(near->warnings, testing::IsEmpty());
+    EXPECT_EQ(near->scene.origin, glm::vec3(0.0f));
 }
 
 TEST(LoadScene, ErrorsNameTheFile) {

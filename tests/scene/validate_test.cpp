@@ -60,6 +60,7 @@ const Defect kDefects[] = {
     {"metallic", [](Scene& s) { s.materials[0].metallic = -1; }, {"material 0", "metallic -1"}},
     {"roughness", [](Scene& s) { s.materials[0].roughness = 2; }, {"material 0", "roughness 2"}},
     {"emission", [](Scene& s) { s.materials[0].emission.z = -3; }, {"material 0", "emission", "-3"}},
+    {"emissionTooBright", [](Scene& s) { s.materials[0].emission.z = 3e38f; }, {"material 0", "emission", "1e+20"}},
     {"emissionInfinite", [](Scene& s) { s.materials[0].emission.z = kInfinity; }, {"material 0", "emission", "inf"}},
     {"normalScale", [](Scene& s) { s.materials[0].normalScale = kNan; }, {"material 0", "normal scale"}},
     {"alphaCutoff", [](Scene& s) { s.materials[0].alphaCutoff = 7; }, {"material 0", "alpha cutoff 7"}},
@@ -110,6 +111,14 @@ const Defect kDefects[] = {
     {"channelZeroRotation",
      [](Scene& s) { s.animations[0].path = AnimationPath::rotation; },
      {"value 0 is a rotation of length zero"}},
+    {"skyTooBright", [](Scene& s) { s.sky.radiance.y = 3e38f; }, {"sky", "1e+20"}},
+    {"skyImageTooBright", [](Scene& s) { s.sky.image.pixels[1].x = 3e38f; }, {"sky image", "pixel 1", "1e+20"}},
+    {"skyFactorTooBright",
+     [](Scene& s) {
+         s.sky.image.pixels[1].x = 1e15f;
+         s.sky.radiance.x = 1e15f;
+     },
+     {"sky image", "pixel 1"}},
     {"skyRadiance", [](Scene& s) { s.sky.radiance.y = -1; }, {"sky", "radiance"}},
     {"skyPixels", [](Scene& s) { s.sky.image.pixels.pop_back(); }, {"sky image", "1 pixels", "2 x 1"}},
     {"skyPixelNan", [](Scene& s) { s.sky.image.pixels[1].x = kNan; }, {"sky image", "pixel 1"}},

@@ -33,7 +33,7 @@ Result<std::unique_ptr<Tracer>> makeVulkanTracer(const Context& context, const S
 #endif
 
 inline Result<std::unique_ptr<Tracer>> makeMovable(const Context& context, const Scene& scene, const ScenePose& pose) {
-    return makeMovableEmbreeTracer(context, scene, pose).map([](std::unique_ptr<MovableTracer> made) {
+    return makeMovableEmbreeTracer(context, scene, pose).transform([](std::unique_ptr<MovableTracer> made) {
         return std::unique_ptr<Tracer>(std::move(made));
     });
 }

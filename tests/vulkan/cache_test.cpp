@@ -1,4 +1,6 @@
 // The file of compiled pipelines: whatever is in it or becomes of it, the device works.
+#include <sys/stat.h>
+
 #include <fstream>
 #include <random>
 #include <thread>
@@ -148,6 +150,21 @@ TEST_F(VulkanCache, aFolderThatCannotBeMadeIsReported) {
         EXPECT_EQ(log.count("could not be written"), before + 1) << log.all();
     }
     EXPECT_EQ(bytesOf(blocked), std::vector<char>{'x'});
+}
+
+TEST_F(VulkanCache, aPipeOrADeviceInTheFilesPlaceIsNotRead) {
+    use();
+    const fs::path path = file();
+    fs::remove(path);
+    ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+    use();  // would wait for a writer
+    EXPECT_EQ(log.count("is damaged"), 1);
+    EXPECT_TRUE(fs::is_regular_file(path)) << "it was not made anew";
+    fs::remove(path);
+    fs::create_symlink("/dev/zero", path);
+    use();  // would read for ever
+    EXPECT_EQ(log.count("is damaged"), 2);
+    EXPECT_TRUE(fs::is_character_file("/dev/zero"));
 }
 
 TEST_F(VulkanCache, aFolderInTheFilesPlaceIsSurvived) {
