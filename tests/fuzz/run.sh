@@ -26,10 +26,12 @@ mkdir -p "$corpus"
 "$build/tests/fuzz/fuzz_seeds" "$corpus"
 status=0
 count=()
+same_addresses=()  # on which the choice of inputs depends
+[[ -n $seconds ]] || ! setarch -R true 2>/dev/null || same_addresses=(setarch -R)
 for reader in gltf image; do
     echo "fuzz_$reader: $words"
     [[ -n $seconds ]] || count=(-runs="${runs[$reader]}")
-    "$build/tests/fuzz/fuzz_$reader" "${length[@]}" "${count[@]}" -rss_limit_mb=2048 -malloc_limit_mb=2048 \
+    "${same_addresses[@]}" "$build/tests/fuzz/fuzz_$reader" "${length[@]}" "${count[@]}" -rss_limit_mb=2048 -malloc_limit_mb=2048 \
         -max_len=65536 -print_final_stats=1 -artifact_prefix="$build/fuzz/$reader-" "$corpus/$reader" \
         >"$corpus/$reader.log" 2>&1 || status=1
     tail -n 12 "$corpus/$reader.log"
