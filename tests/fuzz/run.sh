@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs every fuzzer on seeds made for the occasion. Usage: run.sh BUILD_FOLDER [SECONDS]
-# Without SECONDS: the same inputs each time, from one seed and nothing that earlier runs have found, so that what passes
-# once passes again: for CI. With SECONDS: so long each, other inputs each time, on from what earlier runs have found: by
+# Without SECONDS: a fixed number of inputs from one seed and nothing that earlier runs have found, so that what passes
+# once passes again, but for what libFuzzer itself leaves to chance (the glTF run varies by a per cent): for CI. With SECONDS: so long each, other inputs each time, on from what earlier runs have found: by
 # hand, for minutes or a night, after a reader has changed.
 # Exit code 1, and the offending input in BUILD_FOLDER/fuzz, if one crashes, hangs or takes over 2 GB. To run one again:
 # BUILD_FOLDER/tests/fuzz/fuzz_gltf INPUT.
