@@ -14,6 +14,17 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
+/// What libpng allocates; freed also where the header is refused.
+struct PngStructs {
+    PngStructs() = default;
+    ~PngStructs() { png_destroy_read_struct(&png, &info, nullptr); }
+    PngStructs(const PngStructs&) = delete;
+    PngStructs& operator=(const PngStructs&) = delete;
+
+    png_structp png = nullptr;
+    png_infop info = nullptr;
+};
+
 /// libpng's decoder for one picture, row by row: no more memory is used than pixels are there.
 class PngReader {
 public:
@@ -24,7 +35,6 @@ public:
         readHeader();
         checkImageSize(width(), height(), bytes.size());
     }
-    ~PngReader() { png_destroy_read_struct(&m_png, &m_info, nullptr); }
     PngReader(const PngReader&) = delete;
     PngReader& operator=(const PngReader&) = delete;
 
@@ -128,8 +138,9 @@ private:
     std::uint8_t* m_row = nullptr;
     const char* m_where = ": its header is damaged or claims over 2^28 pixels";
     char m_reason[128] = {};
-    png_structp m_png = nullptr;
-    png_infop m_info = nullptr;
+    PngStructs m_structs;
+    png_structp& m_png = m_structs.png;
+    png_infop& m_info = m_structs.info;
 };
 
 }  // namespace
