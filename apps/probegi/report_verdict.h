@@ -25,10 +25,10 @@ struct Verdict {
     std::string sentence;  ///< for people, with what to do where something can be done
 };
 
-/// One sentence on all views of a scene: the worst that one of them shows. Leaking is: in over 0.25 % of the places. It is
-/// worse than noise, for it is told only where noise cannot explain it; noise is worse than a difference, which could be
-/// noise. Matching is: light within 5 % in the whole picture, and within 15 % (and the reference's own noise) in nine of
-/// ten of its parts.
+/// One sentence on all views of a scene: the worst that one of them shows. Leaking is: in over 0.25 % of the places. It
+/// is worse than noise, for it is told only where noise cannot explain it; noise is worse than a difference, which
+/// could be noise. Matching is: light within 5 % in the whole picture, and within 15 % (and the reference's own noise)
+/// in nine of ten of its parts.
 Verdict judge(std::span<const ViewFacts> views);
 
 /// "matches", "differs", "noisy" or "leaks".

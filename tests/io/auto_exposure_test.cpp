@@ -28,6 +28,15 @@ TEST(AutoExposure, ALampAndACornerDoNotCount) {
     EXPECT_NEAR(autoExposure(image), 0.18f, 1e-6f);
 }
 
+// Half of a picture shows the void around a model, in which a last glimmer is left.
+TEST(AutoExposure, TheVoidDoesNotCount) {
+    HdrImage image(10, 10, glm::vec3(2));
+    for (int i = 0; i < 50; ++i) image.pixels[std::size_t(i)] = glm::vec3(1e-4f);
+    EXPECT_NEAR(autoExposure(image), 0.09f, 1e-6f);
+    for (int i = 0; i < 50; ++i) image.pixels[std::size_t(i)] = glm::vec3(0.02f);  // dark, but there
+    EXPECT_GT(autoExposure(image), 0.3f);
+}
+
 TEST(AutoExposure, NothingThatShines) {
     EXPECT_EQ(autoExposure({}), 1.0f);
     EXPECT_EQ(autoExposure(HdrImage(4, 4)), 1.0f);
