@@ -15,9 +15,9 @@ namespace {
 
 /// validate(), with the file whose fault it would be.
 Result<void> validateFrom(const std::filesystem::path& path, const Scene& scene) {
-    return validate(scene).map_error([&](const Error& error) {
-        return Error{error.code, fmt::format("{}: {}", path.string(), error.message)};
-    });
+    const auto valid = validate(scene);
+    if (valid) return {};
+    return fail(valid.error().code, fmt::format("{}: {}", path.string(), valid.error().message));
 }
 
 /// Settings beside the scene, if there are any, and what of them is ignored, one sentence each.

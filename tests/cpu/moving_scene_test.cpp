@@ -62,9 +62,9 @@ struct Answers {
 
 Answers ask(const Tracer& tracer, const std::vector<Ray>& rays) {
     Answers a{std::vector<Hit>(rays.size()), std::vector<Surface>(rays.size()), std::vector<std::uint8_t>(rays.size())};
-    tracer.closestHits(rays, a.hits);
-    tracer.surfaces(rays, a.hits, a.surfaces);
-    tracer.occluded(rays, a.blocked);
+    EXPECT_TRUE(tracer.closestHits(rays, a.hits));
+    EXPECT_TRUE(tracer.surfaces(rays, a.hits, a.surfaces));
+    EXPECT_TRUE(tracer.occluded(rays, a.blocked));
     return a;
 }
 
