@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -144,11 +145,16 @@ Result<void> render(const RenderOptions& options) {
     const auto picture = draw(*context, **backend, **tracer, *setup, options, stats);
     if (!picture) return picture.error();
     const ToneMap toneMap{shownExposure(*setup, picture->color), options.filmic};
-    if (setup->automaticExposure && isLight(options.aov) && options.output.ends_with(".png"))
+    if (auto written = writeAov(options.output, *picture, options.aov, toneMap); !written) return written;
+    if (!options.stats.empty())
+        if (auto written = writeText(options.stats, statsJson(stats)); !written) return written;
+    // Statistics on the standard output are for a program to read.
+    std::error_code none;
+    if (setup->automaticExposure && isLight(options.aov) && options.output.ends_with(".png") &&
+        !std::filesystem::equivalent(options.stats, "/dev/stdout", none))
         fmt::print("exposure {:.4g}, found automatically; the same for another picture: --exposure {:.4g}\n",
                    toneMap.exposure, toneMap.exposure);
-    if (auto written = writeAov(options.output, *picture, options.aov, toneMap); !written) return written;
-    return options.stats.empty() ? Result<void>() : writeText(options.stats, statsJson(stats));
+    return {};
 }
 
 void addPictureOptions(CLI::App& command, RenderOptions& options) {

@@ -93,8 +93,7 @@ Result<ReportPicture> lightPicture(const ReportPlace& place, const std::string& 
                        .unit = kRadiance,
                        .light = true,
                        .exr = fmt::format("{}-{}{}.exr", place.prefix, prefix, light.id)};
-    if (auto written = writeImage(place.folder / text.exr, light.picture.color); !written)
-        return written.error();
+    if (auto written = writeImage(place.folder / text.exr, light.picture.color); !written) return written.error();
     return keepPicture(place, prefix, {std::move(text), light.picture.color, display, light.picture.color});
 }
 

@@ -321,8 +321,7 @@ Result<RenderedScene> renderForReport(const Context& context, const Backend& bac
     if (!truth) return truth.error();
     scene.truth = std::move(*truth);
     studio.begin(kWithout);
-    if (auto drawn = drawViews(studio, scene, &RenderedView::none, nullptr); !drawn)
-        return drawn.error();
+    if (auto drawn = drawViews(studio, scene, &RenderedView::none, nullptr); !drawn) return drawn.error();
     const auto field = drawFields(studio, scene);
     if (!field) return field.error();
     for (RenderedView* view : viewsOf(scene))

@@ -84,7 +84,7 @@ struct FieldQuery {
 
 /// The instructions that the hot loops of CPU fields run with on this processor, as Highway names them: SSE4, AVX2,
 /// AVX3 (AVX-512), NEON... Chosen when the program runs.
-std::string_view instructionSet() noexcept;
+PROBEGI_API std::string_view instructionSet() noexcept;
 
 /// Wall-clock milliseconds of one update. Stages overlap nothing; total includes what is in none of them.
 struct UpdateTimes {

@@ -38,7 +38,7 @@ PROBEGI_API glm::vec3 toDisplay(glm::vec3 linear, const ToneMap& toneMap);
 /// The exposure at which a picture is neither too dark nor too bright: the geometric mean of its luminance, without its
 /// darkest tenth and its brightest twentieth, becomes middle grey (0.18 before the curve). A factor on the picture
 /// divides the exposure. 1 where nothing shines. What is below a thousandth of the brightest counts as black.
-float autoExposure(const HdrImage& image);
+PROBEGI_API float autoExposure(const HdrImage& image);
 
 /// How much memory a file may fill: small ones can claim any amount. Whatever it unpacks to within 64 times its own
 /// size is always allowed.

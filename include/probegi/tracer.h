@@ -108,7 +108,7 @@ struct Lighting {
 };
 
 /// A Tracer whose instances move: doors, lifts, whatever keeps its shape.
-class MovableTracer : public Tracer {
+class PROBEGI_API MovableTracer : public Tracer {
 public:
     /// Moves the movable instances to where `pose` has them; all others stay. The trees over the triangles are kept,
     /// only the one over the instances is made anew, so it costs little. Must not run beside any other call of the
@@ -132,7 +132,8 @@ PROBEGI_API Result<std::unique_ptr<Tracer>> makeEmbreeTracer(const Context& cont
                                                              const ScenePose& pose);
 
 /// The same for a scene in which things move. Errors: those, and invalidArgument (a node that the scene has not).
-Result<std::unique_ptr<MovableTracer>> makeMovableEmbreeTracer(const Context& context, const Scene& scene,
-                                                               const ScenePose& pose, const MovableDesc& desc = {});
+PROBEGI_API Result<std::unique_ptr<MovableTracer>> makeMovableEmbreeTracer(const Context& context, const Scene& scene,
+                                                                           const ScenePose& pose,
+                                                                           const MovableDesc& desc = {});
 
 }  // namespace probegi

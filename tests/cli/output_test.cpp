@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 class Output : public testing::Test {
 protected:
-    std::vector<std::string> render(std::vector<std::string> more, const std::string& scene = "builtin:cornell") const {
+    std::vector<std::string> render(std::vector<std::string> more, const std::string& scene = "builtin:furnace") const {
         more.insert(more.begin(), {"render", scene, "--size", "8x8", "--method", "none"});
         return more;
     }
