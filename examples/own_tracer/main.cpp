@@ -1,6 +1,6 @@
 // A field on rays that ProbeGI did not trace: an engine keeps its own ray tracer and hands over what its rays brought
-// home, and ProbeGI works in the engine's own jobs. Needs GLM and Highway, nothing else. Writes own_tracer.png where this
-// ProbeGI can, and checks places whose light is known.
+// home, and ProbeGI works in the engine's own jobs. Needs GLM and Highway, nothing else. Writes own_tracer.png where
+// this ProbeGI can, and checks places whose light is known.
 #include <probegi/probegi.h>
 
 #include <cstdio>

@@ -55,7 +55,8 @@ TileRenderer::TileRenderer(const Tracer& tracer, const Lighting& lighting, const
       m_camera(kernels::makePinhole(desc.camera.position, desc.camera.forward, desc.camera.up, desc.camera.yfov,
                                     desc.width, desc.height)),
       m_sceneMagnitude(sceneMagnitude(tracer.bounds())) {
-    // What the tracer prepares for filtering, it prepares here, on all threads. Should it fail, the first tile will too.
+    // What the tracer prepares for filtering, it prepares here, on all threads. Should it fail, the first tile will
+    // too.
     static_cast<void>(tracer.filteredSurfaces({}, {}, spread(), {}));
 }
 
