@@ -67,7 +67,6 @@ RoomField::RoomField(LeakGuard guard, glm::ivec3 counts, int raysPerProbe)
 FieldView RoomField::view() const {
     FieldView view;
     view.desc = &m_desc;
-    view.probes = m_layout.probes;
     view.irradiance = m_storage.irradiance.data();
     view.visibility = m_storage.visibility.data();
     view.backfaceShare = m_storage.backfaceShare.data();

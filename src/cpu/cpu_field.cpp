@@ -16,6 +16,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// What the query's 32-bit gathers reach (cpu/leak_guards-inl.h): 16 GiB of visibility.
+constexpr std::size_t kMostVisibilityTexels = std::size_t(1) << 32;
+
 double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
@@ -24,6 +27,8 @@ double millisecondsSince(Clock::time_point start) {
 
 Result<Field> Field::create(const Context& context, const FieldDesc& desc) {
     if (auto ok = validateFieldDesc(desc); !ok) return ok.error();
+    const FieldLayout layout(desc);
+    if (layout.probes * layout.visibilityTexels > kMostVisibilityTexels) return probesDoNotFit(desc);
     try {
         return makeFieldOn(context, desc, std::make_unique<CpuField>(context, desc));
     } catch (const std::bad_alloc&) {
@@ -42,7 +47,6 @@ CpuField::CpuField(const Context& context, const FieldDesc& desc)
 FieldView CpuField::view(const FieldDesc& desc) const noexcept {
     const glm::vec3& s = desc.grid.spacing;
     return {.desc = &desc,
-            .probes = m_layout.probes,
             .irradiance = m_storage.irradiance.data(),
             .visibility = m_storage.visibility.data(),
             .backfaceShare = m_storage.backfaceShare.data(),

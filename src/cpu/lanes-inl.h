@@ -32,7 +32,6 @@ struct Mask {
     hn::Mask<decltype(kReals)> lanes;
 
     HWY_INLINE friend Mask operator&&(const Mask& a, const Mask& b) { return {hn::And(a.lanes, b.lanes)}; }
-    HWY_INLINE friend Mask operator||(const Mask& a, const Mask& b) { return {hn::Or(a.lanes, b.lanes)}; }
 };
 
 struct Real {
@@ -64,9 +63,6 @@ struct Int {
     HWY_INLINE friend Int operator&(const Int& a, const Int& b) { return Int(hn::And(a.lanes, b.lanes)); }
     HWY_INLINE friend Mask operator==(const Int& a, const Int& b) {
         return {hn::RebindMask(kReals, hn::Eq(a.lanes, b.lanes))};
-    }
-    HWY_INLINE friend Mask operator<(const Int& a, const Int& b) {
-        return {hn::RebindMask(kReals, hn::Lt(a.lanes, b.lanes))};
     }
 };
 

@@ -6,6 +6,7 @@
 #define PROBEGI_CPU_LEAK_GUARDS_INL_H
 #endif
 
+#include "cpu/footprint-inl.h"
 #include "cpu/footprint.h"
 #include "cpu/lanes-inl.h"
 #include "cpu/probe_query.h"
@@ -42,16 +43,15 @@ public:
 template <int rules>
 class MomentsGuard {
     using Real = kernels::HWY_NAMESPACE::Real;
-    using Real2 = kernels::HWY_NAMESPACE::Real2;
     using Real3 = kernels::HWY_NAMESPACE::Real3;
     using Int = kernels::HWY_NAMESPACE::Int;
 
 public:
     explicit MomentsGuard(const FieldView& view)
         : m_size(view.desc->visibilityTexels),
-          m_half(std::uint32_t(std::uint64_t(view.probes) * std::uint32_t(m_size * m_size) / 2)),
+          m_half(std::uint32_t(std::uint64_t(probeCount(view.desc->grid)) * std::uint32_t(m_size * m_size) / 2)),
           m_middle(reinterpret_cast<const std::int32_t*>(view.visibility + m_half)),
-          m_taps(reinterpret_cast<const std::int32_t*>(view.visibilityTaps->data())),
+          m_taps(*view.visibilityTaps),
           m_inverseMaxDistance(view.inverseMaxDistance) {
         for (int side = 0; side < 6; ++side) {
             const AxisTexels& texels = axisTexels(*view.visibilityTaps, m_size, side / 2, side % 2 == 1);
@@ -61,24 +61,14 @@ public:
 
     HWY_INLINE Real seen(const Int& probe, const Real3& d) const {
         namespace lanes = kernels::HWY_NAMESPACE;
-        const Real2 texel = lanes::octTexelPosition(lanes::octEncode(d), m_size);
-        // Rounding may put a direction a hair outside the square: the footprint stays inside the table.
-        const Real last = float(m_size - 1);
-        const Real cornerX = lanes::min(lanes::max(lanes::floor(texel.x), -1.0f), last);
-        const Real cornerY = lanes::min(lanes::max(lanes::floor(texel.y), -1.0f), last);
-        const Real fx = texel.x - cornerX, fy = texel.y - cornerY;
-        const Int footprint = lanes::toInt((cornerY + 1.0f) * float(m_size + 1) + (cornerX + 1.0f));
-
-        // Four taps of 16 bits, in two words.
-        const Int top = lanes::gather(m_taps, footprint + footprint);
-        const Int bottom = lanes::gather(m_taps + 1, footprint + footprint);
+        const LaneFootprint f = footprintOf(m_taps, m_size, d);
         const Int map = mapOf(probe);
-        const Int t0 = lanes::gather(m_middle, map + lanes::lowHalf(top));
-        const Int t1 = lanes::gather(m_middle, map + lanes::highHalf(top));
-        const Int t2 = lanes::gather(m_middle, map + lanes::lowHalf(bottom));
-        const Int t3 = lanes::gather(m_middle, map + lanes::highHalf(bottom));
-        const Real mean = bilinear(lowHalves(t0), lowHalves(t1), lowHalves(t2), lowHalves(t3), fx, fy);
-        const Real meanSquare = bilinear(highHalves(t0), highHalves(t1), highHalves(t2), highHalves(t3), fx, fy);
+        const Int t0 = lanes::gather(m_middle, map + f.tap[0]);
+        const Int t1 = lanes::gather(m_middle, map + f.tap[1]);
+        const Int t2 = lanes::gather(m_middle, map + f.tap[2]);
+        const Int t3 = lanes::gather(m_middle, map + f.tap[3]);
+        const Real mean = bilinear(lowHalves(t0), lowHalves(t1), lowHalves(t2), lowHalves(t3), f.fx, f.fy);
+        const Real meanSquare = bilinear(highHalves(t0), highHalves(t1), highHalves(t2), highHalves(t3), f.fx, f.fy);
         const Real distance = lanes::sqrt(d.x * d.x + d.y * d.y + d.z * d.z) * m_inverseMaxDistance;
         return lanes::chebyshevWeight(mean, meanSquare, distance, rules);
     }
@@ -118,7 +108,7 @@ private:
     int m_size;  // texels a side
     std::uint32_t m_half;
     const std::int32_t* m_middle;
-    const std::int32_t* m_taps;
+    const TapTable& m_taps;
     float m_inverseMaxDistance;
     std::array<std::array<std::int32_t, 6>, 4> m_axisTexels;  // [tap][side]
 };

@@ -19,7 +19,6 @@ TapTable makeTapTable(int size);
 /// What a query reads: a view of a field on which nothing is checked.
 struct FieldView {
     const FieldDesc* desc = nullptr;
-    std::size_t probes = 0;
     const std::uint16_t* irradiance = nullptr;
     const std::uint32_t* visibility = nullptr;
     const float* backfaceShare = nullptr;

@@ -9,12 +9,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 #include "cpu/query_lanes.h"
 #include "kernels/probe_neighbours.h"
 #include "kernels/storage.h"
 
+#include "cpu/footprint-inl.h"
 #include "cpu/lanes-inl.h"
 #include "cpu/leak_guards-inl.h"
 
@@ -28,7 +28,6 @@ using lanes::Int;
 using lanes::kLanes;
 using lanes::Mask;
 using lanes::Real;
-using lanes::Real2;
 using lanes::Real3;
 
 using Reals = std::array<float, kLanes>;        // one number of each point
@@ -92,25 +91,13 @@ HWY_INLINE Real3 load(const std::array<Reals, 3>& v) {
 }
 
 HWY_INLINE void findFootprints(const FieldView& view, const Real3& normal, Block& block) {
-    const int size = view.desc->irradianceTexels;
-    const Real2 texel = lanes::octTexelPosition(lanes::octEncode(normal), size);
-    const Real last = float(size - 1);
-    const Real cornerX = lanes::min(lanes::max(lanes::floor(texel.x), -1.0f), last);
-    const Real cornerY = lanes::min(lanes::max(lanes::floor(texel.y), -1.0f), last);
-    const Real fx = texel.x - cornerX, fy = texel.y - cornerY;
-    const Int footprint = lanes::toInt((cornerY + 1.0f) * float(size + 1) + (cornerX + 1.0f));
-    const auto* taps = reinterpret_cast<const std::int32_t*>(view.irradianceTaps->data());
-    const Int top = lanes::gather(taps, footprint + footprint);
-    const Int bottom = lanes::gather(taps + 1, footprint + footprint);
-    lanes::store(lanes::lowHalf(top) * Int(3), block.offset[0].data());
-    lanes::store(lanes::highHalf(top) * Int(3), block.offset[1].data());
-    lanes::store(lanes::lowHalf(bottom) * Int(3), block.offset[2].data());
-    lanes::store(lanes::highHalf(bottom) * Int(3), block.offset[3].data());
-    const Real y1 = fy * kernels::kHalfRebase, y0 = Real(kernels::kHalfRebase) - y1;
-    lanes::store(y0 - fx * y0, block.tapWeight[0].data());
-    lanes::store(fx * y0, block.tapWeight[1].data());
-    lanes::store(y1 - fx * y1, block.tapWeight[2].data());
-    lanes::store(fx * y1, block.tapWeight[3].data());
+    const LaneFootprint f = footprintOf(*view.irradianceTaps, view.desc->irradianceTexels, normal);
+    for (std::size_t tap = 0; tap < 4; ++tap) lanes::store(f.tap[tap] * Int(3), block.offset[tap].data());
+    const Real y1 = f.fy * kernels::kHalfRebase, y0 = Real(kernels::kHalfRebase) - y1;
+    lanes::store(y0 - f.fx * y0, block.tapWeight[0].data());
+    lanes::store(f.fx * y0, block.tapWeight[1].data());
+    lanes::store(y1 - f.fx * y1, block.tapWeight[2].data());
+    lanes::store(f.fx * y1, block.tapWeight[3].data());
 }
 
 // What the way back to the surface needs of a block's cages.

@@ -60,5 +60,15 @@ TEST(Field, memoryIsWithinItsBudget) {
     EXPECT_GE(double(field.memory().persistentBytes()) / probeCount(desc.grid), 64 * 6 + 256 * 4);
 }
 
+// Refused before any memory is asked for: the query reaches 2^32 visibility texels.
+TEST(Field, moreVisibilityThanTheQueryReachesDoesNotFit) {
+    FieldDesc desc;
+    desc.grid = {{0, 0, 0}, {1, 1, 1}, {256, 256, 256}};
+    desc.visibilityTexels = 64;
+    const auto field = Field::create(kContext, desc);
+    ASSERT_FALSE(field);
+    EXPECT_EQ(field.error().code, ErrorCode::outOfMemory);
+}
+
 }  // namespace
 }  // namespace probegi

@@ -45,7 +45,6 @@ public:
     FieldView view() {
         FieldView view;
         view.desc = &m_desc;
-        view.probes = m_backfaceShare.size();
         view.irradiance = m_irradiance.data();
         view.visibility = m_visibility.data();
         view.backfaceShare = m_backfaceShare.data();

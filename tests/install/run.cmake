@@ -1,14 +1,6 @@
 # cmake -DBUILD=... -DEXAMPLES=... -DWORK=... -DCOMPILER=... -DLAUNCHER=... -DSANITIZE=... -DVERSION=... -DVULKAN=...
 # [-DFILM="FRAMES HEIGHT"] -P run.cmake
-function(run)
-    execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
-    message(STATUS "${output}")
-    if(NOT code EQUAL 0)
-        message(FATAL_ERROR "failed with ${code}: ${ARGN}")
-    endif()
-endfunction()
-
-file(REMOVE_RECURSE ${WORK})
+include(${CMAKE_CURRENT_LIST_DIR}/../packaging/common.cmake)
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 run(${WORK}/prefix/bin/probegi --help)
 

@@ -1,4 +1,4 @@
-# Included by the scripts beside it.
+# Included by the scripts beside it and by install/run.cmake.
 function(run)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
     message(STATUS "${output}")
