@@ -37,7 +37,7 @@ LoadedScene importGltf(std::span<const std::uint8_t> bytes, const std::filesyste
     std::size_t size = bytes.size();
     for (const tinygltf::Buffer& buffer : model.buffers) size += buffer.data.size();
     for (const tinygltf::Image& image : model.images) size += image.image.size();
-    Import import{model, out, Budget(limits, size, kGeometryShare), Budget(limits, size), {}, {}, {}, {}};
+    Import import{model, out, Budget(limits, size, kGeometryShare), Budget(limits, size), {}, {}, {}, {}, {}};
     importMaterials(import);
     importLights(import);
     importCameras(import);

@@ -20,10 +20,11 @@ struct Import {
     LoadedScene& out;
     Budget geometry;
     Budget pixels;
-    std::vector<int> lights;   ///< model light -> scene light, -1: dropped
-    std::vector<int> cameras;  ///< model camera -> scene camera, -1: dropped
-    std::vector<int> nodes;    ///< model node -> scene node, -1: not in the scene that is shown
-    std::vector<int> meshes;   ///< model mesh -> scene mesh, -1: not used by those nodes
+    std::vector<int> lights;          ///< model light -> scene light, -1: dropped
+    std::vector<int> cameras;         ///< model camera -> scene camera, -1: dropped
+    std::vector<bool> placedCameras;  ///< model camera -> whether a node has it
+    std::vector<int> nodes;           ///< model node -> scene node, -1: not in the scene that is shown
+    std::vector<int> meshes;          ///< model mesh -> scene mesh, -1: not used by those nodes
 
     Scene& scene() { return out.scene; }
 

@@ -81,6 +81,26 @@ int meshOf(Import& import, const std::string& user, const tinygltf::Node& n) {
     return slot;
 }
 
+/// The node's camera, or -1. Each place has a camera of its own, so that each can have a name: one that stands in
+/// several has its own name in the first and is called after the node in the others.
+int cameraOf(Import& import, const std::string& user, const tinygltf::Node& n) {
+    if (n.camera < 0) return -1;
+    const std::size_t model = checkedIndex(user, "camera", n.camera, import.cameras.size());
+    const int slot = import.cameras[model];
+    if (slot < 0) return -1;
+    std::vector<Camera>& cameras = import.scene().cameras;
+    if (import.placedCameras[model]) {
+        Camera again = cameras[std::size_t(slot)];
+        if (!n.name.empty()) again.name = n.name;
+        cameras.push_back(std::move(again));
+        return int(cameras.size()) - 1;
+    }
+    import.placedCameras[model] = true;
+    std::string& name = cameras[std::size_t(slot)].name;
+    if (name.empty()) name = n.name;
+    return slot;
+}
+
 Node importNode(Import& import, const std::string& user, const tinygltf::Node& n, int parent) {
     Node node;
     node.name = n.name;
@@ -88,11 +108,7 @@ Node importNode(Import& import, const std::string& user, const tinygltf::Node& n
     importTransform(import, user, n, node);
     node.mesh = meshOf(import, user, n);
     node.light = lightOf(import, user, n);
-    if (n.camera >= 0) node.camera = import.cameras[checkedIndex(user, "camera", n.camera, import.cameras.size())];
-    if (node.camera >= 0) {
-        std::string& name = import.scene().cameras[std::size_t(node.camera)].name;
-        if (name.empty()) name = n.name;
-    }
+    node.camera = cameraOf(import, user, n);
     if (n.skin >= 0) import.warn("skins are not supported; skinned meshes keep their rest pose");
     return node;
 }
@@ -103,6 +119,7 @@ void importNodes(Import& import) {
     const auto& nodes = import.model.nodes;
     import.nodes.assign(nodes.size(), -1);
     import.meshes.assign(import.model.meshes.size(), -1);
+    import.placedCameras.assign(import.cameras.size(), false);
     struct Visit {
         int node;
         int parent;

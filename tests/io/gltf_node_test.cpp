@@ -151,6 +151,21 @@ TEST(GltfNode, ReadsPerspectiveCamerasOnly) {
     EXPECT_EQ(loaded->scene.nodes[1].camera, 0);
 }
 
+TEST(GltfNode, ACameraInTwoPlacesHasTwoNames) {
+    GltfBuilder b;
+    b.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}}};
+    b.json["nodes"] = {{{"camera", 0}, {"name", "hall"}}, {{"camera", 0}, {"name", "garden"}}, {{"camera", 0}}};
+    b.json["scenes"][0]["nodes"] = {0, 1, 2};
+    const auto loaded = read(b);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    const ScenePose pose = poseAt(loaded->scene);
+    ASSERT_EQ(pose.cameras.size(), 3u);
+    EXPECT_EQ(pose.cameras[0].name, "hall");
+    EXPECT_EQ(pose.cameras[1].name, "garden");
+    EXPECT_EQ(pose.cameras[2].name, "hall") << "a node without a name leaves the camera's";
+    EXPECT_FLOAT_EQ(pose.cameras[1].yfov, 0.8f);
+}
+
 TEST(GltfNode, SkinsKeepTheRestPose) {
     GltfBuilder b;
     b.show({{"attributes", b.triangle()}});
