@@ -1,11 +1,12 @@
-# Sourced by setup.sh: Vulkan for machines without a GPU, so that every test runs everywhere.
+# Sourced by setup.sh: software Vulkan, so that every test runs everywhere, whatever GPU there is or is not.
 #
-# The tests want two software devices: one with ray query (Mesa 25.0's lavapipe) and one without (Mesa 22.3's). Debian 12
-# has 22.3 itself and 25.0 in its backports: the newer one is installed, the older one is unpacked into build/mesa-22.3.
+# The tests name their drivers (tests/vulkan_test.cmake) and want two software ones: with ray query (Mesa 25.0's lavapipe)
+# and without (Mesa 22.3's). Debian 12 has 22.3 itself and 25.0 in its backports. 22.3 is unpacked into build/mesa-22.3.
+# 25.0 is installed, so that the tool has a device as well; but where a GPU answers its driver, which may come in the same
+# package, is its owner's business: there 25.0 is unpacked too, into build/mesa-25.0.
 
 wanted_mesa=25.0
 old_mesa=22.3
-old_mesa_folder=build/mesa-$old_mesa
 
 # Whether a Vulkan device answers that is not software.
 gpu_answers() {
@@ -39,16 +40,35 @@ add_backports() {
     apt_update
 }
 
-setup_newer_mesa() {
-    local version
-    version=$(installed_mesa)
-    ! dpkg --compare-versions "${version:-0}" ge "$wanted_mesa" || return 0
-    echo "No GPU answers: installing software Vulkan with ray query, Mesa $wanted_mesa, from Debian 12's backports (/etc/apt/sources.list.d/probegi-backports.sources)"
-    apt_update
-    [[ -n $(offered_mesa) ]] || add_backports
-    [[ -n $(offered_mesa) ]] || fail "Debian 12's backports offer no Mesa $wanted_mesa, which the tests need as software Vulkan with ray query."
-    apt install -y --no-install-recommends -t bookworm-backports mesa-vulkan-drivers ||
-        fail "apt-get could not install mesa-vulkan-drivers from Debian 12's backports; see its message."
+unpacked_driver() { ls build/mesa-"$1"/usr/lib/*/libvulkan_lvp.so 2>/dev/null || true; }
+
+# Whether a version is unpacked and finds its libraries.
+is_unpacked() {
+    local driver
+    driver=$(unpacked_driver "$1")
+    [[ -n $driver ]] && ! ldd "$driver" | grep -q 'not found'
+}
+
+# unpack_mesa NAME VERSION: the software driver beside the system's, in build/mesa-NAME.
+unpack_mesa() {
+    local name=$1 version=$2 folder=build/mesa-$1 driver package dependencies
+    echo "Unpacking Mesa $version, software Vulkan for the tests, into $folder"
+    rm -rf "$folder"
+    mkdir -p "$folder"
+    # As the current user: the folder is not for apt's own user to write to.
+    (cd "$folder" && apt-get -q -o APT::Sandbox::User="$(id -un)" download "mesa-vulkan-drivers=$version") >"$apt_log" 2>&1 ||
+        { tail -n 30 "$apt_log" >&2 && fail "apt-get could not download Mesa $version."; }
+    package=$(ls "$folder"/*.deb)
+    mapfile -t dependencies < <(dpkg-deb -f "$package" Depends | tr ',' '\n' | grep -oE '^ *(lib|zlib)[^ :|]+' | tr -d ' ')
+    install_packages "${dependencies[@]}"
+    dpkg-deb -x "$package" "$folder"
+    rm "$package"
+    driver=$(unpacked_driver "$name")
+    [[ -n $driver ]] || fail "Mesa $version holds no software Vulkan for this processor."
+    ! ldd "$driver" | grep 'not found' || fail "Mesa $version's driver lacks the libraries above."
+}
+
+expect_ray_query() {
     local extension devices
     devices=$(timeout 60 vulkaninfo 2>/dev/null || true)
     for extension in ray_query acceleration_structure ray_tracing_pipeline; do
@@ -57,13 +77,26 @@ setup_newer_mesa() {
     done
 }
 
-old_driver() { compgen -G "$old_mesa_folder/usr/lib/*/libvulkan_lvp.so" >/dev/null && ls "$old_mesa_folder"/usr/lib/*/libvulkan_lvp.so; }
+setup_newer_mesa() {
+    local installed
+    installed=$(installed_mesa)
+    if dpkg --compare-versions "${installed:-0}" ge "$wanted_mesa" || is_unpacked "$wanted_mesa"; then return; fi
+    echo "Software Vulkan with ray query, Mesa $wanted_mesa, comes from Debian 12's backports (/etc/apt/sources.list.d/probegi-backports.sources)"
+    apt_update
+    [[ -n $(offered_mesa) ]] || add_backports
+    [[ -n $(offered_mesa) ]] || fail "Debian 12's backports offer no Mesa $wanted_mesa, which the tests need as software Vulkan with ray query."
+    if gpu_answers; then
+        unpack_mesa "$wanted_mesa" "$(offered_mesa)"
+        return
+    fi
+    apt install -y --no-install-recommends -t bookworm-backports mesa-vulkan-drivers ||
+        fail "apt-get could not install mesa-vulkan-drivers from Debian 12's backports; see its message."
+    expect_ray_query
+}
 
-# The driver without ray query, beside the system: unpacked, not installed.
 setup_older_mesa() {
-    local driver version package dependencies
-    driver=$(old_driver || true)
-    if [[ -n $driver ]] && ! ldd "$driver" | grep -q 'not found'; then return 0; fi
+    local version
+    if is_unpacked "$old_mesa"; then return; fi
     find_old_mesa() { apt-cache madison mesa-vulkan-drivers | awk -v old="$old_mesa" 'index($3, old) == 1 {print $3; exit}'; }
     version=$(find_old_mesa)
     if [[ -z $version ]]; then
@@ -71,23 +104,10 @@ setup_older_mesa() {
         version=$(find_old_mesa)
     fi
     [[ -n $version ]] || fail "apt offers no Mesa $old_mesa, which the tests use as the Vulkan device without ray query."
-    echo "Unpacking Mesa $version, software Vulkan without ray query, into $old_mesa_folder"
-    rm -rf "$old_mesa_folder"
-    mkdir -p "$old_mesa_folder"
-    # As the current user: the folder is not for apt's own user to write to.
-    (cd "$old_mesa_folder" && apt-get -q -o APT::Sandbox::User="$(id -un)" download "mesa-vulkan-drivers=$version") >"$apt_log" 2>&1 ||
-        { tail -n 30 "$apt_log" >&2 && fail "apt-get could not download Mesa $version."; }
-    package=$(ls "$old_mesa_folder"/*.deb)
-    mapfile -t dependencies < <(dpkg-deb -f "$package" Depends | tr ',' '\n' | grep -oE '^ *(lib|zlib)[^ :|]+' | tr -d ' ')
-    install_packages "${dependencies[@]}"
-    dpkg-deb -x "$package" "$old_mesa_folder"
-    rm "$package"
-    driver=$(old_driver) || fail "Mesa $version holds no software Vulkan for this processor."
-    ! ldd "$driver" | grep 'not found' || fail "Mesa $version's driver lacks the libraries above."
+    unpack_mesa "$old_mesa" "$version"
 }
 
 setup_software_vulkan() {
-    if gpu_answers; then return; fi
     if is_debian_12; then
         setup_newer_mesa
         setup_older_mesa

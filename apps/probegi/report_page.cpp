@@ -114,7 +114,8 @@ Result<ReportPicture> leakPicture(const ReportPlace& place, const std::string& p
         .title = "Leak map",
         .caption = fmt::format("The field's indirect light over the reference's, where noise cannot explain the "
                                "difference: reddish too much, bluish too little, full red {} times and more, visibly. "
-                               "{} of {} places leak.",
+                               "{} of {} places leak. Light that came through a wall and a contact shadow finer than "
+                               "the probes' spacing look the same here: the reference beside it tells which it is.",
                                kLeakRatio, leaks.leaks, leaks.tiles),
         .alt = fmt::format("{}: map of places where the field leaks", place.title),
         .unit = "times the reference's indirect light"};

@@ -337,11 +337,12 @@ PROBEGI_API Result<void> recordShading(VkCommandBuffer commands, const GpuScene&
                                        ProbeVolume* volume, VkDeviceAddress samples, std::uint32_t count,
                                        bool diffuseOnly = false, Profiler* profiler = nullptr);
 
-/// Linear values to 8-bit sRGB through the tone map: `linear` is the address of vec3[count], `display` of
-/// std::uint32_t[count], red in the lowest byte, alpha 255. Ordered by the caller as above. Errors: outOfMemory.
+/// A picture's linear values to 8-bit sRGB through the tone map, dithered as it says: `linear` is the address of
+/// vec3[width * height], row by row, `display` of as many std::uint32_t, red in the lowest byte, alpha 255; at most
+/// 2^30 pixels. Ordered by the caller as above. Errors: outOfMemory.
 PROBEGI_API Result<void> recordToneMap(VkCommandBuffer commands, const Device& device, VkDeviceAddress linear,
-                                       VkDeviceAddress display, std::uint32_t count, const ToneMap& toneMap,
-                                       Profiler* profiler = nullptr);
+                                       VkDeviceAddress display, std::uint32_t width, std::uint32_t height,
+                                       const ToneMap& toneMap, Profiler* profiler = nullptr);
 
 /// Triangles traced on the GPU: closestHits(), occluded() and surfaces() upload, dispatch and wait, so they want large
 /// batches; a Field of the same device traces without leaving the GPU. They fail with deviceLost or outOfMemory. The

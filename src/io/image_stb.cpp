@@ -7,7 +7,6 @@
 #include "io/image_codec.h"
 #include "io/refused.h"
 #include "io/stb.h"
-#include "kernels/tone_map.h"
 
 namespace probegi::io {
 
@@ -70,12 +69,6 @@ struct HdrSource {
     }
 };
 
-void appendBytes(void* context, void* data, int size) {
-    const auto* bytes = static_cast<const std::uint8_t*>(data);
-    auto& out = *static_cast<std::vector<std::uint8_t>*>(context);
-    out.insert(out.end(), bytes, bytes + size);
-}
-
 }  // namespace
 
 HdrImage decodeHdr(Bytes bytes, const ReadLimits& limits) {
@@ -93,26 +86,6 @@ HdrImage decodeHdr(Bytes bytes, const ReadLimits& limits) {
         image.pixels.emplace_back(pixels[3 * i], pixels[3 * i + 1], pixels[3 * i + 2]);
     }
     return image;
-}
-
-std::vector<std::uint8_t> encodePng(const HdrImage& image, const ToneMap& toneMap) {
-    if (3 * image.pixels.size() + std::size_t(image.height) > INT_MAX) {
-        refuse(ErrorCode::invalidArgument, "a PNG of {} x {} pixels is too large; write .exr", image.width,
-               image.height);
-    }
-    std::vector<std::uint8_t> codes;
-    codes.reserve(3 * image.pixels.size());
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) {
-            const glm::vec3 steps = 255.0f * toDisplay(image.at(x, y), toneMap);
-            const float threshold = toneMap.dither ? kernels::ditherThreshold(x, y) : 0.5f;
-            for (int c = 0; c < 3; ++c) codes.push_back(std::uint8_t(steps[c] + threshold));
-        }
-    std::vector<std::uint8_t> bytes;
-    if (!stbi_write_png_to_func(appendBytes, &bytes, image.width, image.height, 3, codes.data(), 3 * image.width)) {
-        refuse(ErrorCode::outOfMemory, "the PNG of {} x {} pixels cannot be encoded", image.width, image.height);
-    }
-    return bytes;
 }
 
 }  // namespace probegi::io

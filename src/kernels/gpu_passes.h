@@ -141,6 +141,7 @@ struct RaysPush {
     uvec2 hits;     // Hit[count]
     uvec2 results;  // occlusion: uint[count]; surfaces: GpuSurface[count]
     uint count;
+    float spread;  // surfaces: radians of the cones that textures are filtered over; 0: not at all
 };
 
 // probegi::Surface without its gaps.
@@ -195,11 +196,13 @@ KERNEL_CONST int kSampleBackface = 2;
 
 // Linear values to 8-bit sRGB (tone_map.comp).
 struct ToneMapPush {
-    uvec2 pixels;   // vec3[count]
-    uvec2 display;  // uint[count], RGBA8, red in the lowest byte
-    uint count;
+    uvec2 pixels;   // vec3[row][column]
+    uvec2 display;  // uint[row][column], RGBA8, red in the lowest byte
+    uint width;     // pixels
+    uint height;
     float exposure;
     int filmic;
+    int dither;
 };
 
 KERNELS_END
@@ -209,9 +212,9 @@ namespace probegi::kernels {
 static_assert(offsetof(SceneConstants, bvh) == 140 && sizeof(SceneConstants) == 172 && sizeof(LightingBlock) == 40);
 static_assert(sizeof(WeightsPush) == 56 && sizeof(SolidPush) == 12 && sizeof(BlendPush) == 104 &&
               sizeof(TracePush) == 72);
-static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 28 && sizeof(PicturePush) == 96);
+static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 96);
 static_assert(sizeof(FilterPush) == 76 && sizeof(GpuProbeStep) == 80);
-static_assert(sizeof(ToneMapPush) == 28 && sizeof(GpuSurface) == 76 && sizeof(GpuSample) == 100);
+static_assert(sizeof(ToneMapPush) == 36 && sizeof(GpuSurface) == 76 && sizeof(GpuSample) == 100);
 }  // namespace probegi::kernels
 #endif
 

@@ -51,6 +51,12 @@ KERNEL_FN float ditherThreshold(int x, int y) {
     return (float(level) + 0.5f) / 64.0f;
 }
 
+// The 8-bit codes of pixel (x, y), with or without that.
+KERNEL_FN uvec3 displayCodes(vec3 display, bool dither, int x, int y) {
+    const float threshold = dither ? ditherThreshold(x, y) : 0.5f;
+    return uvec3(display * 255.0f + vec3(threshold));
+}
+
 KERNELS_END
 
 #endif

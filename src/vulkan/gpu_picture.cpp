@@ -147,8 +147,8 @@ Result<std::vector<std::uint8_t>> toneMapImage(const Device& device, const HdrIm
         const VkDeviceAddress linear = exchange.add(pixels);
         exchange.run(
             [&](const Recorder& recorder) {
-                orThrow(recordToneMap(recorder.commands(), device, linear, exchange.out(), std::uint32_t(pixels.size()),
-                                      toneMap));
+                orThrow(recordToneMap(recorder.commands(), device, linear, exchange.out(), std::uint32_t(image.width),
+                                      std::uint32_t(image.height), toneMap));
             },
             pixels.size() * 4);
         const auto bytes = exchange.results<std::uint8_t>();

@@ -65,7 +65,8 @@ Result<void> GpuTracer::closestHits(std::span<const Ray> rays, std::span<Hit> hi
         kernels::RaysPush push{.rays = packAddress(m_exchange.add(rays.subspan(first, count))),
                                .hits = packAddress(m_exchange.out()),
                                .results = {},
-                               .count = std::uint32_t(count)};
+                               .count = std::uint32_t(count),
+                               .spread = 0};
         m_exchange.run(
             [&](const Recorder& recorder) {
                 recorder.bindScene(m_scene.impl().set());
@@ -85,7 +86,8 @@ Result<void> GpuTracer::occluded(std::span<const Ray> rays, std::span<std::uint8
         kernels::RaysPush push{.rays = packAddress(m_exchange.add(rays.subspan(first, count))),
                                .hits = {},
                                .results = packAddress(m_exchange.out()),
-                               .count = std::uint32_t(count)};
+                               .count = std::uint32_t(count),
+                               .spread = 0};
         m_exchange.run(
             [&](const Recorder& recorder) {
                 recorder.bindScene(m_scene.impl().set());
@@ -99,6 +101,11 @@ Result<void> GpuTracer::occluded(std::span<const Ray> rays, std::span<std::uint8
 }
 
 Result<void> GpuTracer::surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const {
+    return filteredSurfaces(rays, hits, 0.0f, out);
+}
+
+Result<void> GpuTracer::filteredSurfaces(std::span<const Ray> rays, std::span<const Hit> hits, float spread,
+                                         std::span<Surface> out) const {
     assert(rays.size() == hits.size() && rays.size() == out.size());
     const std::lock_guard lock(m_mutex);
     return inPieces(rays.size(), [&](std::size_t first, std::size_t count) {
@@ -106,7 +113,8 @@ Result<void> GpuTracer::surfaces(std::span<const Ray> rays, std::span<const Hit>
         kernels::RaysPush push{.rays = packAddress(m_exchange.add(rays.subspan(first, count))),
                                .hits = packAddress(m_exchange.add(hits.subspan(first, count))),
                                .results = packAddress(m_exchange.out()),
-                               .count = std::uint32_t(count)};
+                               .count = std::uint32_t(count),
+                               .spread = spread};
         m_exchange.run(
             [&](const Recorder& recorder) {
                 recorder.bindScene(m_scene.impl().set());

@@ -17,6 +17,8 @@ public:
     Result<void> closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override;
     Result<void> occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override;
     Result<void> surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const override;
+    Result<void> filteredSurfaces(std::span<const Ray> rays, std::span<const Hit> hits, float spread,
+                                  std::span<Surface> out) const override;
     Bounds bounds() const override { return m_scene.bounds(); }
     const EmitterSet* emitters() const override;
 

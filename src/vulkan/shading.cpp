@@ -59,16 +59,19 @@ Result<void> recordShading(VkCommandBuffer commands, const GpuScene& scene, cons
 }
 
 Result<void> recordToneMap(VkCommandBuffer commands, const Device& device, VkDeviceAddress linear,
-                           VkDeviceAddress display, std::uint32_t count, const ToneMap& toneMap, Profiler* profiler) {
+                           VkDeviceAddress display, std::uint32_t width, std::uint32_t height, const ToneMap& toneMap,
+                           Profiler* profiler) {
     return guarded("recording a tone map", [&] {
         const Recorder recorder(device.impl(), commands);
         const PassScope scope(recorder, device.impl(), profiler, "tone map");
         recorder.push(kernels::ToneMapPush{.pixels = packAddress(linear),
                                            .display = packAddress(display),
-                                           .count = count,
+                                           .width = width,
+                                           .height = height,
                                            .exposure = toneMap.exposure,
-                                           .filmic = toneMap.filmic ? 1 : 0});
-        recorder.dispatchOver("tone_map", count);
+                                           .filmic = toneMap.filmic ? 1 : 0,
+                                           .dither = toneMap.dither ? 1 : 0});
+        recorder.dispatchOver("tone_map", std::size_t(width) * height);
     });
 }
 

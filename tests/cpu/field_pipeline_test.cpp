@@ -42,16 +42,5 @@ TEST_F(FieldPipeline, isTheSameBitForBitForAnyNumberOfThreads) {
     EXPECT_EQ(answers[0], answers[2]);
 }
 
-TEST_F(FieldPipeline, timesAddUp) {
-    const auto tracer = makeTracer(context);
-    Field field = makeField(context);
-    const UpdateTimes t = *field.update(*tracer, lighting);
-    EXPECT_GT(t.trace, 0.0);
-    EXPECT_GT(t.shade, 0.0);
-    EXPECT_GT(t.blend, 0.0);
-    EXPECT_NEAR(t.trace + t.shade + t.blend, t.total, 0.01 * t.total);
-    EXPECT_EQ(field.frame(), 1);
-}
-
 }  // namespace
 }  // namespace probegi

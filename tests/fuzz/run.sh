@@ -21,10 +21,11 @@ else
     length=(-seed=1 -timeout=60)
     words="a fixed number of inputs from seed 1"
 fi
-declare -A runs=([gltf]=40000 [image]=8000)  # about a minute each
+declare -A runs=([gltf]=40000 [image]=8000)  # about a minute each, side by side
 mkdir -p "$corpus"
 "$build/tests/fuzz/fuzz_seeds" "$corpus"
 status=0
+declare -A running
 count=()
 same_addresses=()  # on which the choice of inputs depends
 [[ -n $seconds ]] || ! setarch -R true 2>/dev/null || same_addresses=(setarch -R)
@@ -33,7 +34,11 @@ for reader in gltf image; do
     [[ -n $seconds ]] || count=(-runs="${runs[$reader]}")
     "${same_addresses[@]}" "$build/tests/fuzz/fuzz_$reader" "${length[@]}" "${count[@]}" -rss_limit_mb=2048 -malloc_limit_mb=2048 \
         -max_len=65536 -print_final_stats=1 -artifact_prefix="$build/fuzz/$reader-" "$corpus/$reader" \
-        >"$corpus/$reader.log" 2>&1 || status=1
+        >"$corpus/$reader.log" 2>&1 &
+    running[$reader]=$!
+done
+for reader in gltf image; do
+    wait "${running[$reader]}" || status=1
     tail -n 12 "$corpus/$reader.log"
 done
 exit $status

@@ -171,8 +171,9 @@ TEST(ImageCodec, PngThatBeginsItsDataWithAnEmptyChunk) {
     image.pixels = {{1, 0, 0}, {0, 1, 1}};
     Bytes png = io::encodePng(image, {});
     const std::uint8_t empty[] = {0, 0, 0, 0, 'I', 'D', 'A', 'T', 0x35, 0xaf, 0x06, 0x1e};
-    constexpr std::size_t kHeader = 8 + 12 + 13;  // signature and IHDR
-    png.insert(png.begin() + kHeader, std::begin(empty), std::end(empty));
+    const auto data = std::search(png.begin(), png.end(), empty + 4, empty + 8);
+    ASSERT_NE(data, png.end());
+    png.insert(data - 4, std::begin(empty), std::end(empty));  // before the length of the first chunk of data
     EXPECT_EQ(io::decodePng(png).pixels, image.pixels);
     EXPECT_EQ(io::decodePngTexture(png).rgba, Bytes({255, 0, 0, 255, 0, 255, 255, 255}));
 }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "io/image_codec.h"
 #include "probegi/probegi.h"
 #include "support/tracers.h"
 
@@ -24,15 +25,9 @@ struct Backend {
     friend std::ostream& operator<<(std::ostream& out, const Backend& backend) { return out << backend.name; }
 };
 
-/// What vulkan::toneMapImage does, by toDisplay().
+/// What vulkan::toneMapImage does, as a PNG has it.
 inline Result<std::vector<std::uint8_t>> toneMapOnCpu(const HdrImage& image, const ToneMap& toneMap) {
-    std::vector<std::uint8_t> rgba;
-    for (const glm::vec3& pixel : image.pixels) {
-        const glm::vec3 display = toDisplay(pixel, toneMap);
-        for (int c = 0; c < 3; ++c) rgba.push_back(std::uint8_t(display[c] * 255.0f + 0.5f));
-        rgba.push_back(255);
-    }
-    return rgba;
+    return io::decodeTexture(io::encodePng(image, toneMap)).rgba;
 }
 
 /// The reference of all others.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "kernels/colour.h"
 #include "kernels/texture.h"
 #include "surface/texture_sampler.h"
 
@@ -50,6 +51,39 @@ TEST(MipMaps, OddSizesAndOneTexel) {
     const std::vector<std::uint8_t> mips = makeMips(image, TexelKind::data);
     EXPECT_EQ(mips.size(), 4u * (2 * 1 + 1 * 1));
     for (const std::uint8_t texel : mips) EXPECT_EQ(texel, 77);
+}
+
+// An odd number of texels, halved: each covers a little more than two, all count alike, and the mean stays.
+TEST(MipMaps, OddSizesCoverEachTexelAlike) {
+    for (const int lit : {0, 1, 2, 3, 4}) {
+        TextureImage image{5, 1, std::vector<std::uint8_t>(20, 0), "one lit"};
+        for (int c = 0; c < 4; ++c) image.rgba[std::size_t(4 * lit + c)] = 250;
+        const std::vector<std::uint8_t> mips = makeMips(image, TexelKind::data);
+        ASSERT_EQ(mips.size(), 4u * 3);
+        EXPECT_EQ(mips[0] + mips[4], 100) << lit;
+        EXPECT_EQ(mips[8], 50) << lit;
+        EXPECT_EQ(mips[0], lit < 2 ? 100 : lit == 2 ? 50 : 0);
+    }
+}
+
+// A mean of equal texels is that texel, for every code; and of two codes the one nearest to the mean of their light.
+TEST(MipMaps, EveryCodeStays) {
+    for (int code = 0; code < 256; ++code)
+        for (const TexelKind kind : {TexelKind::color, TexelKind::data})
+            for (const int width : {2, 3}) {
+                const TextureImage image{width, 1,
+                                         std::vector<std::uint8_t>(std::size_t(4 * width), std::uint8_t(code)), "even"};
+                EXPECT_EQ(makeMips(image, kind)[0], code);
+            }
+    for (int code = 0; code < 250; ++code) {
+        const auto a = std::uint8_t(code), b = std::uint8_t(code + 5);
+        const TextureImage image{2, 1, {a, a, a, a, b, b, b, b}, "two"};
+        const auto light = [](int c) { return double(kernels::decodeSrgb(float(c) / 255)); };
+        const double mean = 0.5 * (light(a) + light(b));
+        const double got = 255.0 * kernels::encodeSrgb(float(mean));
+        EXPECT_NEAR(makeMips(image, TexelKind::color)[0], got, 0.501) << code;
+        EXPECT_NEAR(makeMips(image, TexelKind::data)[0], code + 2.5, 0.501) << code;
+    }
 }
 
 TEST(MipMaps, LooksUpBetweenLevels) {

@@ -261,6 +261,29 @@ TEST_P(TracerSurface, SecondUvSet) {
     EXPECT_EQ(shoot(*trace(GetParam(), s), rayAlong({-0.5f, 1, 0.1f}, {0, -1, 0})).surface.albedo, glm::vec3(1, 0, 0));
 }
 
+// A chessboard of 64 x 64 texels on 2 x 2 m: over a cone that covers many of them it is grey; over none, as surfaces().
+TEST_P(TracerSurface, TexturesAreFilteredOverTheCone) {
+    TestScene s;
+    std::vector<std::uint8_t> chess;
+    for (int i = 0; i < 64 * 64; ++i)
+        for (int c = 0; c < 4; ++c) chess.push_back(c == 3 || ((i ^ (i / 64)) & 1) ? 255 : 0);
+    Material m;
+    m.baseColorTexture.image = s.addImage(64, 64, std::move(chess));
+    m.baseColorTexture.nearest = true;
+    s.add(quad(s.addMaterial(m)));
+    const auto tracer = trace(GetParam(), s);
+    for (const glm::vec3 origin : {glm::vec3(0.02f, 1, 0.01f), glm::vec3(-0.3f, 1, 0.23f)}) {
+        const Ray ray = rayAlong(origin, {0, -1, 0});
+        const Shot shot = shoot(*tracer, ray);
+        Surface wide, sharp;
+        tracer->filteredSurfaces({&ray, 1}, {&shot.hit, 1}, 0.25f, {&wide, 1}).value();
+        tracer->filteredSurfaces({&ray, 1}, {&shot.hit, 1}, 0.0f, {&sharp, 1}).value();
+        EXPECT_NEAR(wide.albedo.x, 0.5f, 0.005f);
+        EXPECT_EQ(sharp.albedo, shot.surface.albedo);
+        EXPECT_TRUE(sharp.albedo.x == 0 || sharp.albedo.x == 1);
+    }
+}
+
 TEST_P(TracerSurface, MissedRaysLeaveTheirEntry) {
     TestScene s;
     s.add(quad());

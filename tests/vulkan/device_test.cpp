@@ -74,6 +74,22 @@ TEST_F(VulkanDevice, aNumberThatIsNoIndexIsPartOfAName) {
     EXPECT_EQ(device->info().name, "Imaginary RTX 3090");
 }
 
+// On a list of several, registered as both.vulkan: each in turn is the GPU, whatever its place.
+TEST_F(VulkanDevice, aGpuIsChosenBeforeSoftware) {
+    const auto devices = *vulkan::listDevices();
+    for (const vulkan::DeviceInfo& gpu : devices) {
+        hooks().properties = [&](VkPhysicalDeviceProperties& p) {
+            p.deviceType = gpu.api.ends_with("." + std::to_string(VK_API_VERSION_PATCH(p.apiVersion)))
+                               ? VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU
+                               : VK_PHYSICAL_DEVICE_TYPE_CPU;
+        };
+        const auto device = open("");
+        ASSERT_TRUE(device) << device.error().message;
+        EXPECT_EQ(device->info().api, gpu.api);
+        EXPECT_EQ(device->info().name, gpu.name);
+    }
+}
+
 TEST_F(VulkanDevice, anUnknownNameIsAnsweredWithTheKnownOnes) {
     const auto devices = *vulkan::listDevices();
     for (const char* name : {"no such GPU", "99", "-1", "0x"}) {

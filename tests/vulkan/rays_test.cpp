@@ -83,7 +83,8 @@ std::vector<Hit> hitsOf(const vulkan::GpuScene& scene, std::span<const Ray> rays
     const kernels::RaysPush push{.rays = vulkan::packAddress(exchange.add(rays)),
                                  .hits = vulkan::packAddress(exchange.out()),
                                  .results = {},
-                                 .count = std::uint32_t(rays.size())};
+                                 .count = std::uint32_t(rays.size()),
+                                 .spread = 0};
     exchange.run(
         [&](const vulkan::Recorder& recorder) {
             recorder.bindScene(scene.impl().set());

@@ -15,7 +15,7 @@ void main() {
     const Hit hit = Hits(push.hits).at[index];
     if (hit.primitive < 0) return;
     useSceneOnly();
-    const Surface s = surfaceAt(Rays(push.rays).at[index], hit);
+    const Surface s = surfaceAt(Rays(push.rays).at[index], hit, push.spread);
     Surfaces(push.results).at[index] =
         GpuSurface(s.position, s.geometricNormal, s.shadingNormal, s.albedo, s.emission, s.metallic, s.roughness,
                    s.material, s.backface ? kSideBackface : (s.back ? kSideBack : kSideFront));

@@ -10,8 +10,8 @@ layout(push_constant, scalar) uniform Push {
 
 void main() {
     const uint index = globalIndex();
-    if (index >= push.count) return;
+    if (index >= push.width * push.height) return;
     const vec3 display = toneMap(Vec3s(push.pixels).at[index], push.exposure, push.filmic != 0);
-    const uvec3 code = uvec3(display * 255.0 + 0.5);
+    const uvec3 code = displayCodes(display, push.dither != 0, int(index % push.width), int(index / push.width));
     Uints(push.display).at[index] = code.r | (code.g << 8) | (code.b << 16) | 0xff000000u;
 }

@@ -1,0 +1,2 @@
+// Nothing: what is compiled here is the precompiled header of all tests.
+int main() {}
