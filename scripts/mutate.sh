@@ -26,9 +26,13 @@ TEXT
 
 # Programs of unit tests that take seconds, cheapest first. Left out: cli, io, report, vulkan and the like, which know
 # nothing of these folders; analytic, backend, reference and render, which take minutes.
-programs=(kernels field surface bvh cpu)
-# What a program need not run: agreement on large scenes.
-declare -A filter=([bvh]='-EmbreeAgreement.*')
+programs=(kernels field surface bvh cpu tracer)
+# What a program need not run: what takes longer than all the rest, or needs scenes from files.
+declare -A filter=(
+    [bvh]='-EmbreeAgreement.*'
+    [cpu]='-OwnEmitters.*:MovingScene.AMoveBuildsNoTriangles'
+    [tracer]='-*Agreement*:*Scenes*:*Watertight*:*ManyAtOnce*:*TheBuildDoesNotDependOnThreads*'
+)
 # No formulas: what makes two languages of one text, and records that only shaders read.
 left_out='src/kernels/(language|gpu_passes)\.h$'
 goal=90  # per cent
