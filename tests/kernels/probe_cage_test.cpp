@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels/probe_query.h"
+#include "kernels/probe_neighbours.h"
 
 namespace probegi::kernels {
 namespace {
@@ -48,6 +48,14 @@ TEST(ProbeCage, neighboursAreFourASide) {
             for (int i = 0; i < kNeighbours; ++i) count += neighbourCell(ivec3(0), i)[axis] == along ? 1 : 0;
             EXPECT_EQ(count, 4) << axis << ' ' << along;
         }
+}
+
+// Less than half a thousandth of weight is doubt; in full doubt a point far from all probes has light nevertheless.
+TEST(ProbeNeighboursDoubt, beginsBelowHalfAThousandth) {
+    const vec3 cage = vec3(2.0f), neighbours = kPi * vec3(9.0f);
+    EXPECT_NEAR(completedByNeighbours(cage * 0.0005f, 0.0005f, neighbours).x, 4 * kPi, 1e-3f);
+    EXPECT_NEAR(completedByNeighbours(cage * 0.0001f, 0.0001f, neighbours).x, 2.8f * 2.8f * kPi, 1e-3f);
+    EXPECT_EQ(neighbourWeight(1, vec3(0.0f), vec3(0, 0, 1), 1, 2), crushWeight(backfaceWeight(0, kRulesMeasured)));
 }
 
 TEST(ProbeQuery, noViewerIsTheNormal) {
