@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <set>
 
+#include "kernels/octahedral.h"
 #include "kernels/octahedral_texel.h"
 #include "kernels/ray_set.h"
 
