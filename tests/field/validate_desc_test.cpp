@@ -92,6 +92,20 @@ TEST(FieldDescLimits, coordinatesMustBeFinerThanTheGrid) {
         }
 }
 
+// The narrowest axis counts, whichever it is.
+TEST(FieldDescLimits, coordinatesMustBeFinerThanTheNarrowestAxis) {
+    for (int narrow = 0; narrow < 3; ++narrow) {
+        FieldDesc d;
+        d.grid = {glm::vec3(0.0f), glm::vec3(1.0f), glm::ivec3(8)};
+        d.grid.origin[(narrow + 1) % 3] = 1000;  // where 32 units are 4 mm
+        EXPECT_TRUE(validateFieldDesc(d));
+        d.grid.spacing[narrow] = 0.014f;
+        EXPECT_FALSE(validateFieldDesc(d)) << narrow;
+        d.grid.spacing[narrow] = 0.017f;
+        EXPECT_TRUE(validateFieldDesc(d)) << narrow;
+    }
+}
+
 TEST(FieldLayout, sizesFollowFromTheDescription) {
     FieldDesc d;
     d.grid = {glm::vec3(0.0f), {2, 3, 6}, {2, 3, 4}};
