@@ -145,5 +145,34 @@ TEST(Convergence, keepsWhatItSays) {
     EXPECT_NEAR(books.kept().visibility, 0.75, 1e-6);
 }
 
+// What remains: one and a half standard errors of the average, from the updates' scatter, and what the average still
+// drifts by, which falls by 2^3 from half as many updates where light has no bounces.
+TEST(Convergence, whatRemainsIsScatterAndDrift) {
+    FieldDesc desc;
+    desc.grid.counts = {4, 4, 4};
+    Convergence books(desc, 1e-6f, 1000);
+    const std::vector<float> shares(64, 0.0f);
+    const auto tell = [&](double light) { books.advance(std::vector<float>(64, float(light)), shares); };
+    for (int still = 0; still < 5; ++still) books.observes() ? tell(1) : books.advance({}, {});
+    double light = 1, squares = 0;
+    std::vector<double> sum;
+    for (int n = 1; n <= 21; ++n) {
+        ASSERT_NEAR(books.kept().irradiance, 1 - 3.0 / (n + 2), 1e-6) << "the average began";
+        EXPECT_NEAR(books.kept().visibility, 1 - 1.0 / (n + 3), 1e-6);
+        const double change = (n % 3 == 0 ? -0.02 : 0.03) / n, before = light;
+        light *= (2 + change) / (2 - change);  // relative to the mean of both
+        tell(light);
+        const double seen = (double(float(light)) - double(float(before))) / (0.5 * (light + before));
+        sum.push_back((sum.empty() ? 0 : sum.back()) + seen);
+        // An update lies this far from the average before it, which has noise of its own.
+        if (n > 1) squares += std::pow(seen * (n + 2) / 3, 2) / (1 + 9.0 / 5 / (n - 1));
+        EXPECT_FALSE(books.converged());
+        if (n < 8) continue;
+        const double scatter = 1.5 * std::sqrt(9.0 / 5 * squares / (n - 1) / n);
+        const double drift = std::abs(sum.back() - sum[std::size_t(n / 2 - 1)]) / (8 - 1);
+        EXPECT_NEAR(books.remaining() / (scatter + drift), 1, 1e-3) << n;
+    }
+}
+
 }  // namespace
 }  // namespace probegi

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "field/layout.h"
@@ -55,6 +56,63 @@ TEST(Placement, refusesWhatHasNoExtent) {
     EXPECT_FALSE(placeGrid({{0, 0, 0}, {1, 1, 1}}, {.counts = {1, 5, 5}}));
     EXPECT_FALSE(placeGrid({{0, 0, 0}, {1, 1, 1}}, {.targetProbes = 1}));
     EXPECT_FALSE(placeGrid({{0, 0, 0}, {1, 1, 1}}, {.marginCells = -1}));
+}
+
+// A cell and a quarter on each side, of cells that follow from the counts; too few probes: the scene's size twice.
+TEST(Placement, marginsAreExact) {
+    const Bounds bounds{{-5, 0, 0}, {5, 4, 20}};
+    const auto grid = placeGrid(bounds, {.counts = {12, 6, 12}, .marginCells = 1});
+    ASSERT_TRUE(grid);
+    EXPECT_FLOAT_EQ(grid->spacing.x, 10 / 8.5f);
+    EXPECT_FLOAT_EQ(grid->spacing.y, 4 / 2.5f);
+    EXPECT_FLOAT_EQ(grid->spacing.z, 20 / 8.5f);
+    EXPECT_FLOAT_EQ(grid->origin.x, -5.5f * 10 / 8.5f);
+    EXPECT_FLOAT_EQ(grid->origin.y, 2 - 2.5f * 4 / 2.5f);
+    EXPECT_FLOAT_EQ(grid->origin.z, 10 - 5.5f * 20 / 8.5f);
+    const auto tiny = placeGrid(bounds, {.counts = {2, 2, 2}, .marginCells = 1});
+    ASSERT_TRUE(tiny);
+    EXPECT_FLOAT_EQ(tiny->spacing.x, 20);
+    const auto flat = placeGrid({{0, 0, 0}, {10, 0, 10}}, {.counts = {4, 4, 4}, .marginCells = 0});
+    ASSERT_TRUE(flat);
+    EXPECT_FLOAT_EQ(flat->spacing.y, 0.01f / 2.5f);
+}
+
+// The densest cubic grid within the target: cells a per cent smaller would be too many probes.
+TEST(Placement, usesTheTarget) {
+    const glm::vec3 size(7, 3, 11);
+    const auto probesAt = [&](float spacing, float margin) {
+        double probes = 1;
+        for (int axis = 0; axis < 3; ++axis) probes *= std::ceil(size[axis] / spacing + 2 * (margin + 0.25f)) + 1;
+        return probes;
+    };
+    for (const int target : {1000, 5000, 30000})
+        for (const float margin : {0.0f, 1.0f, 2.5f}) {
+            const auto grid = placeGrid({glm::vec3(0), size}, {.targetProbes = target, .marginCells = margin});
+            ASSERT_TRUE(grid);
+            EXPECT_LE(probeCount(*grid), target);
+            EXPECT_EQ(probeCount(*grid), probesAt(grid->spacing.x, margin));
+            EXPECT_GT(probesAt(0.99f * grid->spacing.x, margin), target);
+        }
+}
+
+TEST(Placement, limitsAreInclusive) {
+    const Bounds box{{0, 0, 0}, {1, 1, 1}};
+    EXPECT_TRUE(placeGrid(box, {.marginCells = 0}));
+    EXPECT_TRUE(placeGrid(box, {.targetProbes = 1 << 24, .marginCells = 100}));
+    EXPECT_FALSE(placeGrid(box, {.marginCells = 100.5f}));
+    EXPECT_FALSE(placeGrid(box, {.marginCells = std::nanf("")}));
+    EXPECT_TRUE(placeGrid(box, {.targetProbes = 8, .marginCells = 0}));
+    EXPECT_FALSE(placeGrid(box, {.targetProbes = 7}));
+    EXPECT_FALSE(placeGrid(box, {.targetProbes = (1 << 24) + 1}));
+    for (int axis = 0; axis < 3; ++axis)
+        for (const auto& [count, taken] : {std::pair{2, true}, {1024, true}, {1, false}, {1025, false}}) {
+            PlacementDesc desc{.counts = {3, 3, 3}};
+            desc.counts[axis] = count;
+            EXPECT_EQ(bool(placeGrid(box, desc)), taken) << axis << ' ' << count;
+        }
+    // Probes a micrometre apart are the closest.
+    EXPECT_TRUE(placeGrid({{0, 0, 0}, glm::vec3(1.01e-6f * 8.5f)}, {.counts = glm::ivec3(12), .marginCells = 1}));
+    EXPECT_FALSE(placeGrid({{0, 0, 0}, glm::vec3(0.99e-6f * 8.5f)}, {.counts = glm::ivec3(12), .marginCells = 1}));
 }
 
 TEST(Grid, positionsFollowTheLinearIndex) {

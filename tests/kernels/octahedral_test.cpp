@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <set>
 
+#include "kernels/octahedral.h"
 #include "kernels/octahedral_texel.h"
 #include "kernels/ray_set.h"
 
@@ -52,6 +54,37 @@ TEST(Octahedral, borderTexelsRepeatTheirNeighboursOnTheSphere) {
     EXPECT_EQ(octWrapTexel(-1, -1, size), ivec2(size - 1, size - 1));
     EXPECT_EQ(octWrapTexel(size, -1, size), ivec2(0, size - 1));
     EXPECT_EQ(octWrapTexel(3, 5, size), ivec2(3, 5));
+}
+
+// Both ways round: every border texel is a copy of exactly the texel that it repeats, and of none twice.
+TEST(Octahedral, copiesFillTheBorder) {
+    for (const int size : {4, 8}) {
+        std::set<std::pair<int, int>> border;
+        for (int y = 0; y < size; ++y)
+            for (int x = 0; x < size; ++x)
+                for (int copy = 0; copy < 3; ++copy) {
+                    const ivec2 at = octBorderTexel(x, y, size, copy);
+                    EXPECT_EQ(octWrapTexel(at.x, at.y, size), ivec2(x, y)) << copy;
+                    if (at == ivec2(x, y)) continue;
+                    EXPECT_TRUE(border.insert({at.x, at.y}).second) << at.x << ' ' << at.y;
+                    EXPECT_TRUE(at.x == -1 || at.y == -1 || at.x == size || at.y == size);
+                }
+        EXPECT_EQ(border.size(), std::size_t(4 * size + 4));
+    }
+}
+
+TEST(Octahedral, knownPoints) {
+    EXPECT_EQ(octEncode({0, 0, 1}), vec2(0, 0));
+    EXPECT_EQ(octEncode({3, 0, 0}), vec2(1, 0));
+    EXPECT_EQ(octEncode({0, -2, 0}), vec2(0, -1));
+    EXPECT_EQ(octEncode({1, 2, 1}), vec2(0.25f, 0.5f));
+    EXPECT_EQ(octEncode({1, 2, -1}), vec2(0.5f, 0.75f)) << "folded over the diagonal";
+    EXPECT_EQ(octEncode({-1, 2, -1}), vec2(-0.5f, 0.75f));
+    EXPECT_EQ(octTexelPosition({-1, 1}, 8), vec2(-0.5f, 7.5f));
+    EXPECT_EQ(octTexelPosition({0, 0.25f}, 8), vec2(3.5f, 4.5f));
+    EXPECT_LT(length(octTexelDirection(3, 5, 8) - normalize(vec3(-0.125f, 0.375f, 0.5f))), 1e-6f);
+    for (const ivec2 corner : {ivec2(-1, 8), ivec2(8, 8), ivec2(8, -1), ivec2(-1, -1)})
+        EXPECT_EQ(octWrapTexel(corner.x, corner.y, 8), ivec2(corner.x < 0 ? 7 : 0, corner.y < 0 ? 7 : 0));
 }
 
 TEST(Octahedral, texelPositionCountsFromTexelCentres) {

@@ -76,6 +76,39 @@ TEST(SolidProbe, waysHaveAnEnd) {
     EXPECT_EQ(stepsBy(kNoWayOut), kNoWayOut);
 }
 
+// The lines that the documentation draws, from both sides.
+TEST(SolidProbe, linesAreWhereTheyAreSaidToBe) {
+    EXPECT_FALSE(mayBeOpen({0, 0.149f, 0u, 0u, 0u}));
+    EXPECT_TRUE(mayBeOpen({0, 0.151f, 0u, 0u, 0u}));
+    EXPECT_FALSE(mayBeSolid({0.249f, 0.751f, 0u, 0u, 0u}));
+    EXPECT_TRUE(mayBeSolid({0.251f, 0.749f, 0u, 0u, 0u}));
+    EXPECT_FALSE(freeWay(1.59f, 9, 2));
+    EXPECT_FALSE(freeWay(9, 1.59f, 2));
+    EXPECT_TRUE(freeWay(1.61f, 1.61f, 2));
+    EXPECT_EQ(stepsBy(15u), 16u);
+    EXPECT_EQ(stepsBy(16u), kNoWayOut);
+    // 12 updates open a way; it then stands 16 more without being seen again.
+    ProbeSides sides = kDoubtful;
+    for (int update = 1; update <= 40; ++update) {
+        sides = foundWay(sides, 2);
+        EXPECT_EQ(sides.nextSteps == 2u, update >= 12) << update;
+        sides.steps = sides.nextSteps;
+    }
+    for (int update = 1; update <= 20; ++update) {
+        sides = foundWay(sides, kNoWayOut);
+        EXPECT_EQ(sides.nextSteps == 2u, update < 16) << update;
+        sides.steps = sides.nextSteps;
+    }
+}
+
+// With hardly a front in sight (3 % of the rays) no way counts.
+TEST(SolidProbe, enclosedProbesAreSolidAtOnce) {
+    const ProbeSides open{0.45f, 0.5f, 2u, 2u, 16u};
+    EXPECT_FLOAT_EQ(solidShare(open, {83, 80, 0}, 100), 80.0f / 83);
+    EXPECT_FLOAT_EQ(solidShare(open, {84, 80, 0}, 100), 0);
+    EXPECT_FLOAT_EQ(solidShare(open, {84, 80, 21}, 100), 0.25f);
+}
+
 TEST(SolidProbe, packedSidesAddUp) {
     uint packed = 0;
     for (int ray = 0; ray < 256; ++ray) packed += packSides(true, ray % 2 == 0, ray % 4 == 0);

@@ -2,6 +2,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "kernels/irradiance_decoding.h"
 #include "kernels/irradiance_encoding.h"
 #include "kernels/storage.h"
 

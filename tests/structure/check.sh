@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # The rules of docs/architecture.md that a compiler does not check. Usage: check.sh RULE [PROJECT_FOLDER]
-# Rules: layers public_headers examples sizes assets words links. Prints what breaks the rule; exit code 1 if anything does.
+# Rules: layers public_headers kernel_tests examples sizes assets words links. Prints what breaks the rule; exit code 1 if anything does.
 set -euo pipefail
 shopt -s nullglob globstar
 
-rule=${1:?name a rule: layers, public_headers, examples, sizes, assets, words or links}
+rule=${1:?name a rule: layers, public_headers, kernel_tests, examples, sizes, assets, words or links}
 cd "${2:-$(dirname "${BASH_SOURCE[0]}")/../..}"
 complaints=0
 complain() {
@@ -77,6 +77,16 @@ check_public_headers() {
         if grep -nE "\\b($types)" "$file"; then
             complain "$file names a type of a library that users need not know"
         fi
+    done
+}
+
+# Agreement of backends cannot see a wrong formula that they share: each kernel has a test of its own.
+check_kernel_tests() {
+    local header
+    for header in src/kernels/*.h; do
+        [[ $header != src/kernels/language.h ]] || continue
+        grep -q "^#include \"${header#src/}\"" /dev/null tests/kernels/*_test.cpp ||
+            complain "$header has no direct test: no file of tests/kernels includes it"
     done
 }
 

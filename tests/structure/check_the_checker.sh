@@ -37,6 +37,7 @@ expect_complaint public_headers include/probegi/a.h '#include <vulkan/vulkan_cor
 expect_complaint public_headers include/probegi/a.h 'VkDevice device();\n'
 expect_complaint public_headers include/probegi/vulkan.h '#include <vulkan/vulkan_raii.hpp>\n'
 expect_complaint public_headers include/probegi/vulkan.h 'vk::Device device();\n'
+expect_complaint kernel_tests src/kernels/a.h 'int x;\n'
 expect_complaint examples examples/a/main.cpp '#include "core/b.h"\n'
 expect_complaint sizes src/core/a.cpp "$(printf '\\n%.0s' {1..601})"
 expect_complaint sizes src/vulkan/shaders/a.glsl "$(printf '\\n%.0s' {1..601})"
