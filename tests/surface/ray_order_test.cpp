@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "kernels/ray_set.h"
@@ -59,8 +60,8 @@ TEST(RayOrder, everyDirectionOnceAndNextToItsLike) {
         if (i > 0) cosines += glm::dot(ordered[i].direction, ordered[i - 1].direction);
     }
     for (const int times : seen) EXPECT_EQ(times, 1);
-    // 0.88 was measured; in the order of the set it is about 0, since neighbours there are 138 degrees apart.
-    EXPECT_GT(cosines / (kRays - 1), 0.8f);
+    // 0.87 was measured; in the order of the set it is -0.16.
+    EXPECT_GT(cosines / (kRays - 1), 0.85f);
 }
 
 TEST(RayOrder, noDirections) {
