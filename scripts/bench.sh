@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Measures on this machine and puts the tables between the marks <!-- bench:begin --> and <!-- bench:end --> of
-# docs/performance.md, and what a newcomer asks first of README.md. Timings mean something only while nothing else runs.
+# docs/performance.md, which keeps a section for each family of processors, and what a newcomer asks first into README.md.
+# Timings mean something only while nothing else runs.
 set -euo pipefail
 
 usage() {
@@ -34,7 +35,7 @@ if (($# == 0)) && [[ -f $sponza ]]; then
     set -- "$sponza" --sky 0.6,0.8,1.2 --probes 22x14x32 --rays 144 --threads 2 --growth-million
 fi
 table=$(mktemp)
-trap 'rm -f "$table" "$table.short"' EXIT
+trap 'rm -f "$table" "$table".*' EXIT
 build/demo/apps/probegi/probegi bench "$@" | tee "$table"
 
 # Of the whole table what a newcomer asks first: what an update, a query and a picture take, and how much memory.
@@ -44,6 +45,54 @@ short_table() {
         /^$/ && told == 1 { print; told = 2 }
         $2 == "measured" || $2 ~ /^(update: all|query of|picture: |memory a probe)/ { printf "| %s | %s |\n", $2, $3 }
         $2 == "measured" { print "|---|---|" }
+    ' "$1"
+}
+
+family() {
+    case $(awk '/^vendor_id/ { print $3; exit }' /proc/cpuinfo) in
+        GenuineIntel) echo Intel ;;
+        AuthenticAMD) echo AMD ;;
+        *) uname -m ;;
+    esac
+}
+
+# marked PAGE: what is between the page's marks.
+marked() {
+    awk '$0 == "<!-- bench:end -->" { exit } inside { print } $0 == "<!-- bench:begin -->" { inside = 1 }' "$1"
+}
+
+# sections TABLE PAGE: what the page has of other families, and the new table of this one.
+sections() {
+    marked "$2" | awk -v own="### $(family)" '
+        /^### / { kept = $0 != own }
+        kept { print; last = $0 }
+        END { if (last != "") print "" }
+    '
+    printf '### %s\n\n' "$(family)"
+    cat "$1"
+}
+
+# A column for each family, from what `sections` printed: the ratios.
+columns() {
+    awk -F ' *[|] *' '
+        /^### / { family[++families] = substr($0, 5); next }
+        match($0, /[0-9]+-[0-9]+-[0-9]+: /) { date[families] = substr($0, RSTART, RLENGTH - 2) }
+        $2 == "measured" { split("", at); for (i = 2; i < NF; ++i) at[$i] = i; next }
+        $2 == "probes" || /^$/ { split("", at) }
+        !("ratio" in at) || $at["ratio"] !~ /^[0-9.]+$/ { next }
+        !($2 in row) { row[$2] = ++rows; name[rows] = $2 }
+        { ratio[row[$2], families] = $at["ratio"]; if ($at["goal"] != "") goal[row[$2]] = $at["goal"] }
+        END {
+            head = "| ratios | goal |"; rule = "|---|---|"
+            for (f = 1; f <= families; ++f) { head = head " " family[f] ", " date[f] " |"; rule = rule "---|" }
+            print head; print rule
+            for (r = 1; r <= rows; ++r) {
+                line = "| " name[r] " | " goal[r] " |"
+                for (f = 1; f <= families; ++f) line = line " " ratio[r, f] " |"
+                print line
+            }
+            print ""
+        }
     ' "$1"
 }
 
@@ -61,6 +110,8 @@ put() {
     mv "$2.new" "$2"
 }
 
-put "$table" docs/performance.md
+sections "$table" docs/performance.md >"$table.sections"
+{ columns "$table.sections"; cat "$table.sections"; } >"$table.all"
+put "$table.all" docs/performance.md
 short_table "$table" >"$table.short"
 put "$table.short" README.md

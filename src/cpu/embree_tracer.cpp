@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cassert>
 #include <glm/geometric.hpp>
 #include <mutex>
@@ -14,6 +15,9 @@ namespace {
 
 /// Of the scene's diagonal: how far apart the origins of coherent rays may be.
 constexpr float kCoherentSpread = 1.0f / 64.0f;
+
+/// Hits whose texels are on their way while others are shaded.
+constexpr std::size_t kFetchAhead = 16;
 
 class EmbreeTracer final : public MovableTracer {
 public:
@@ -41,8 +45,14 @@ public:
 
     Result<void> surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const override {
         assert(rays.size() == hits.size() && rays.size() == out.size());
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            if (hits[i].valid()) out[i] = surface(rays[i], hits[i], m_scene->geometry().materials, 0);
+        const std::vector<SurfaceMaterial>& materials = m_scene->geometry().materials;
+        for (std::size_t begin = 0; begin < rays.size(); begin += kFetchAhead) {
+            const std::size_t end = std::min(begin + kFetchAhead, rays.size());
+            for (std::size_t i = begin; i < end; ++i)
+                if (hits[i].valid()) fetchAhead(meshOf(hits[i]), materials, hits[i]);
+            for (std::size_t i = begin; i < end; ++i)
+                if (hits[i].valid()) out[i] = surface(rays[i], hits[i], materials, 0);
+        }
         return {};
     }
 
@@ -74,6 +84,12 @@ public:
 
 private:
     EmbreePackets packets() const { return {m_scene->handle(), m_originSpread, m_scene->instanced()}; }
+
+    const SurfaceMesh& meshOf(const Hit& hit) const {
+        const SceneGeometry& geometry = m_scene->geometry();
+        return (hit.instance < 0 ? geometry.world : geometry.group(m_scene->placement(hit.instance)))
+            .mesh(hit.geometry);
+    }
 
     Surface surface(const Ray& ray, const Hit& hit, std::span<const SurfaceMaterial> materials, float spread) const {
         const SceneGeometry& geometry = m_scene->geometry();

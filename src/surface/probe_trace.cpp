@@ -1,5 +1,6 @@
 #include "surface/probe_trace.h"
 
+#include <algorithm>
 #include <chrono>
 #include <glm/geometric.hpp>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "scene/sky.h"
 #include "surface/lighting.h"
 #include "surface/probe_emitters.h"
+#include "surface/ray_order.h"
 
 namespace probegi {
 
@@ -19,18 +21,30 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Rays a task, about: enough to amortise calls, few enough for the second-level cache.
-constexpr std::size_t kRaysPerTask = 1152;
+// Rays a batch, about: enough to amortise calls, few enough for the second-level cache.
+constexpr std::size_t kRaysPerBatch = 1152;
 
 std::int64_t nanoseconds(Clock::duration d) {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(d).count();
 }
 
-// Everything a task needs, kept between tasks of a thread.
+// What a ray brings home.
+struct RayLight {
+    glm::vec3 emitted{0.0f};  // does not depend on other light
+    float distance = 0;
+    glm::vec3 direct{0.0f}, bounced{0.0f};  // reflected
+    bool back = false;                      // from the back of a surface with two sides: see RayDatum
+};
+
+// Everything a task needs, kept between tasks of a thread. What has an entry for each ray is as long as the longest
+// batch, and filled in place, field by field: whole structs would go through memory twice.
 struct TaskBuffers {
+    std::vector<std::uint32_t> probes;
+    std::vector<glm::vec3> origins;  // of the probes
     std::vector<Ray> rays, shadowRays;
     std::vector<Hit> hits;
     std::vector<Surface> surfaces;
+    std::vector<RayLight> light;
     std::vector<std::uint32_t> lit;       // indices into rays of hits that reflect
     std::vector<std::uint32_t> shadowed;  // for each shadow ray: index into lit
     std::vector<glm::vec3> unshadowed;    // for each shadow ray: irradiance where it is not blocked
@@ -38,28 +52,39 @@ struct TaskBuffers {
     std::vector<FieldQuery> queries;
     std::vector<glm::vec3> irradiance;  // for each entry of lit: from punctual lights
     std::vector<glm::vec3> bounced;     // for each entry of lit: from the field
+
+    void reserve(std::size_t most) {
+        if (rays.size() >= most) return;
+        const auto each = [most](auto&... buffers) { (buffers.resize(most), ...); };
+        each(rays, shadowRays, hits, surfaces, light, shadowed, unshadowed, blocked, queries, irradiance, bounced);
+    }
 };
 
-// All update rays of a task's probes, then all their fixed rays.
-void makeRays(const GridDesc& grid, const ProbeRayDirections& directions, std::size_t begin, std::size_t end,
-              TaskBuffers& b) {
-    b.rays.clear();
-    for (const std::span<const glm::vec3> kind : {directions.update, directions.fixed})
-        for (std::size_t probe = begin; probe < end; ++probe) {
-            const glm::vec3 origin = probePosition(grid, int(probe));
-            for (const glm::vec3& d : kind) b.rays.push_back({origin, 0.0f, d, 1e30f});
+// Directions of a batch: some of the update rays', or of the fixed rays'.
+struct Batch {
+    std::span<const OrderedDirection> directions;
+    bool fixed;
+};
+
+// Rays of one direction side by side. Returns how many.
+std::size_t makeRays(const Batch& batch, TaskBuffers& b) {
+    const std::size_t count = batch.directions.size() * b.origins.size();
+    b.reserve(count);
+    Ray* ray = b.rays.data();
+    for (const OrderedDirection& d : batch.directions)
+        for (const glm::vec3& origin : b.origins) {
+            ray->origin = origin;
+            ray->direction = d.direction;
+            ++ray;
         }
-    b.hits.resize(b.rays.size());
-    b.surfaces.resize(b.rays.size());
+    return count;
 }
 
 // Irradiance from punctual lights, in b.irradiance.
 Result<void> gatherDirectLight(const Tracer& tracer, const Lighting& lighting, float magnitude, TaskBuffers& b) {
-    b.irradiance.assign(b.lit.size(), glm::vec3(0));
+    std::fill_n(b.irradiance.begin(), b.lit.size(), glm::vec3(0));
     for (const PlacedLight& light : lighting.lights) {
-        b.shadowRays.clear();
-        b.shadowed.clear();
-        b.unshadowed.clear();
+        std::size_t count = 0;
         for (std::uint32_t i = 0; i < b.lit.size(); ++i) {
             const Surface& s = b.surfaces[b.lit[i]];
             const kernels::LightSample sample = sampleLight(light, s.position);
@@ -67,93 +92,101 @@ Result<void> gatherDirectLight(const Tracer& tracer, const Lighting& lighting, f
             if (!(cosine > 0) || !(glm::dot(sample.toLight, s.geometricNormal) > 0)) continue;
             const glm::vec3 e = sample.irradianceAtNormal * cosine;
             if (e == glm::vec3(0)) continue;
-            b.shadowRays.push_back(shadowRay(s.position, s.geometricNormal, sample, magnitude));
-            b.shadowed.push_back(i);
-            b.unshadowed.push_back(e);
+            const Ray shadow = shadowRay(s.position, s.geometricNormal, sample, magnitude);
+            Ray& ray = b.shadowRays[count];
+            ray.origin = shadow.origin;
+            ray.direction = shadow.direction;
+            ray.far = shadow.far;
+            b.shadowed[count] = i;
+            b.unshadowed[count++] = e;
         }
-        b.blocked.resize(b.shadowRays.size());
-        if (auto traced = tracer.occluded(b.shadowRays, b.blocked); !traced) return traced;
-        for (std::size_t k = 0; k < b.blocked.size(); ++k)
-            if (!b.blocked[k]) b.irradiance[b.shadowed[k]] += b.unshadowed[k];
+        const std::span<std::uint8_t> blocked(b.blocked.data(), count);
+        if (auto traced = tracer.occluded({b.shadowRays.data(), count}, blocked); !traced) return traced;
+        for (std::size_t k = 0; k < count; ++k)
+            if (!blocked[k]) b.irradiance[b.shadowed[k]] += b.unshadowed[k];
     }
     return {};
 }
 
 // Irradiance of earlier bounces at the hits: last frame's field (section 2.3).
 Result<void> queryBounces(const BounceQuery& bounces, TaskBuffers& b) {
-    b.bounced.assign(b.lit.size(), glm::vec3(0));
-    if (!bounces) return {};
-    b.queries.clear();
-    for (const std::uint32_t i : b.lit)
-        b.queries.push_back({b.surfaces[i].position, b.surfaces[i].shadingNormal, -b.rays[i].direction});
-    return bounces(b.queries, b.bounced);
+    const std::size_t count = b.lit.size();
+    if (!bounces) {
+        std::fill_n(b.bounced.begin(), count, glm::vec3(0));
+        return {};
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+        const Surface& surface = b.surfaces[b.lit[k]];
+        FieldQuery& query = b.queries[k];
+        query.position = surface.position;
+        query.normal = surface.shadingNormal;
+        query.toViewer = -b.rays[b.lit[k]].direction;
+    }
+    return bounces({b.queries.data(), count}, {b.bounced.data(), count});
 }
 
-// Where the data of a task's rays go.
-struct TaskOutput {
-    std::span<RayDatum> update;
-    std::span<FixedRayDatum> fixed;
-
-    // The radiance that does not depend on other light.
-    void set(std::size_t ray, glm::vec3 radiance, float distance) const {
-        if (ray < update.size())
-            update[ray] = {radiance, distance};
-        else
-            fixed[ray - update.size()] = {kernels::luminance(radiance), 0.0f, distance};
-    }
-    void add(std::size_t ray, glm::vec3 direct, glm::vec3 bounced) const {
-        if (ray < update.size()) {
-            update[ray].radiance += direct + bounced;
-        } else {
-            fixed[ray - update.size()].direct += kernels::luminance(direct);
-            fixed[ray - update.size()].bounced += kernels::luminance(bounced);
-        }
-    }
-    // The ray met the back of a surface with two sides: see RayDatum.
-    void markBack(std::size_t ray) const {
-        if (ray < update.size())
-            update[ray] = {kernels::radianceFromBack(update[ray].radiance), -update[ray].distance};
-        else
-            fixed[ray - update.size()].distance *= -1.0f;
-    }
-};
-
 // Distances and the radiance that does not depend on other light; lists the hits that reflect.
-void resolveHits(const Lighting& lighting, const EmitterSearch& emitters, TaskBuffers& b, const TaskOutput& out) {
+void resolveHits(const Lighting& lighting, const EmitterSearch& emitters, const Batch& batch, std::size_t count,
+                 TaskBuffers& b) {
     b.lit.clear();
-    for (std::uint32_t i = 0; i < b.rays.size(); ++i) {
+    for (std::uint32_t i = 0; i < count; ++i) {
         const Hit& hit = b.hits[i];
+        const Surface& surface = b.surfaces[i];
+        RayLight& light = b.light[i];
+        light = {};
         if (!hit.valid()) {
-            out.set(i, skyRadiance(lighting.sky, b.rays[i].direction), 1e30f);
-        } else if (b.surfaces[i].backface) {
-            out.set(i, glm::vec3(0), -hit.distance);
+            light.emitted = skyRadiance(lighting.sky, b.rays[i].direction);
+            light.distance = 1e30f;
+        } else if (surface.backface) {
+            light.distance = -hit.distance;
         } else {
             // Fixed rays see all of an emission: looks at emitters add nothing to them.
-            const float share = i < out.update.size() ? emitters.rayShare(b.surfaces[i].material, hit.distance) : 1.0f;
-            out.set(i, b.surfaces[i].emission * share, hit.distance);
+            const float share = batch.fixed ? 1.0f : emitters.rayShare(surface.material, hit.distance);
+            light.emitted = surface.emission * share;
+            light.distance = hit.distance;
+            light.back = surface.back;
             b.lit.push_back(i);
         }
     }
 }
 
-TaskOutput outputOf(const ProbeRayDirections& directions, const ProbeRayData& out, std::size_t begin, std::size_t end) {
-    const std::size_t rays = directions.update.size(), fixed = directions.fixed.size();
-    return {out.update.subspan(begin * rays, (end - begin) * rays),
-            out.fixed.subspan(begin * fixed, (end - begin) * fixed)};
+RayDatum updateDatum(const RayLight& light) {
+    const glm::vec3 radiance = light.emitted + (light.direct + light.bounced);
+    if (light.back) return {kernels::radianceFromBack(radiance), -light.distance};
+    return {radiance, light.distance};
 }
 
-// What a task's rays bring home, from their hits on.
-Result<void> shadeTask(const Tracer& tracer, const Lighting& lighting, float magnitude, const BounceQuery& bounces,
-                       const EmitterSearch& emitters, TaskBuffers& b, const TaskOutput& task) {
-    if (auto seen = tracer.surfaces(b.rays, b.hits, b.surfaces); !seen) return seen;
-    resolveHits(lighting, emitters, b, task);
+FixedRayDatum fixedDatum(const RayLight& light) {
+    return {kernels::luminance(light.emitted) + kernels::luminance(light.direct), kernels::luminance(light.bounced),
+            light.back ? -light.distance : light.distance};
+}
+
+void writeData(const ProbeRayDirections& directions, const Batch& batch, const TaskBuffers& b,
+               const ProbeRayData& out) {
+    const RayLight* light = b.light.data();
+    for (const OrderedDirection& d : batch.directions)
+        for (const std::size_t probe : b.probes) {
+            if (batch.fixed)
+                out.fixed[probe * directions.fixed.size() + d.index] = fixedDatum(*light);
+            else
+                out.update[probe * directions.update.size() + d.index] = updateDatum(*light);
+            ++light;
+        }
+}
+
+// What a batch's rays bring home, from their hits on.
+Result<void> shadeBatch(const Tracer& tracer, const Lighting& lighting, float magnitude, const BounceQuery& bounces,
+                        const EmitterSearch& emitters, const Batch& batch, std::size_t count, TaskBuffers& b) {
+    const std::span<Surface> surfaces(b.surfaces.data(), count);
+    if (auto seen = tracer.surfaces({b.rays.data(), count}, {b.hits.data(), count}, surfaces); !seen) return seen;
+    resolveHits(lighting, emitters, batch, count, b);
     if (auto asked = queryBounces(bounces, b); !asked) return asked;
     if (auto lit = gatherDirectLight(tracer, lighting, magnitude, b); !lit) return lit;
     for (std::size_t k = 0; k < b.lit.size(); ++k) {
         const Surface& surface = b.surfaces[b.lit[k]];
-        task.add(b.lit[k], kernels::bounceRadiance(surface.albedo, b.irradiance[k]),
-                 kernels::bounceRadiance(surface.albedo, b.bounced[k]));
-        if (surface.back) task.markBack(b.lit[k]);
+        RayLight& light = b.light[b.lit[k]];
+        light.direct = kernels::bounceRadiance(surface.albedo, b.irradiance[k]);
+        light.bounced = kernels::bounceRadiance(surface.albedo, b.bounced[k]);
     }
     return {};
 }
@@ -164,21 +197,35 @@ Result<void> traceProbes(const Context& context, const GridDesc& grid, const Pro
                          const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces,
                          const EmitterSearch& emitters, const ProbeRayData& out, TraceTimes& times) {
     const float magnitude = sceneMagnitude(tracer.bounds());
-    const std::size_t probesPerTask =
-        std::max<std::size_t>(1, kRaysPerTask / (directions.update.size() + directions.fixed.size()));
-    const auto trace = [&](std::size_t begin, std::size_t end) -> Result<void> {
-        thread_local TaskBuffers b;
+    const ProbeBlocks blocks(grid);
+    const std::vector<OrderedDirection> update = alongCurve(directions.update), fixed = alongCurve(directions.fixed);
+    const auto traceBatch = [&](const Batch& batch, TaskBuffers& b) -> Result<void> {
         const auto start = Clock::now();
-        makeRays(grid, directions, begin, end, b);
-        if (auto hit = tracer.closestHits(b.rays, b.hits); !hit) return hit;
+        const std::size_t count = makeRays(batch, b);
+        if (auto hit = tracer.closestHits({b.rays.data(), count}, {b.hits.data(), count}); !hit) return hit;
         const auto traced = Clock::now();
-        const TaskOutput task = outputOf(directions, out, begin, end);
-        if (auto shaded = shadeTask(tracer, lighting, magnitude, bounces, emitters, b, task); !shaded) return shaded;
+        if (auto shaded = shadeBatch(tracer, lighting, magnitude, bounces, emitters, batch, count, b); !shaded)
+            return shaded;
+        writeData(directions, batch, b, out);
         times.traceNs += nanoseconds(traced - start);
         times.shadeNs += nanoseconds(Clock::now() - traced);
         return {};
     };
-    return tryParallelFor(context, std::size_t(probeCount(grid)), probesPerTask, trace);
+    const auto traceBlock = [&](std::size_t block, std::size_t) -> Result<void> {
+        thread_local TaskBuffers b;
+        blocks.probesOf(block, b.probes);
+        b.origins.clear();
+        for (const std::uint32_t probe : b.probes) b.origins.push_back(probePosition(grid, int(probe)));
+        const std::size_t most = std::max<std::size_t>(1, kRaysPerBatch / b.probes.size());
+        for (const std::span<const OrderedDirection> kind : {std::span(update), std::span(fixed)})
+            for (std::size_t begin = 0; begin < kind.size(); begin += most) {
+                const Batch batch{kind.subspan(begin, std::min(most, kind.size() - begin)),
+                                  kind.data() != update.data()};
+                if (auto done = traceBatch(batch, b); !done) return done;
+            }
+        return {};
+    };
+    return tryParallelFor(context, blocks.count(), 1, traceBlock);
 }
 
 }  // namespace probegi

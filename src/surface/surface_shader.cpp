@@ -158,6 +158,12 @@ glm::vec2 interpolateUv(const SurfaceMesh& mesh, const SurfaceTriangle& triangle
                                 cornerUv(mesh, triangle, 2, texCoord), barycentric);
 }
 
+void fetchAhead(const SurfaceMesh& mesh, std::span<const SurfaceMaterial> materials, const Hit& hit) noexcept {
+    const SurfaceTriangle& triangle = mesh.triangles[std::size_t(hit.primitive)];
+    const TextureSampler& texture = materials[triangle.material].baseColorTexture;
+    texture.fetchAhead(interpolateUv(mesh, triangle, hit.barycentric, texture.texCoord()));
+}
+
 Surface shadeHit(const SurfaceMesh& mesh, std::span<const SurfaceMaterial> materials, const Hit& hit,
                  glm::vec3 direction, float spread) noexcept {
     return shadeTriangle(mesh, materials, hit, nullptr, nullptr, direction, spread);

@@ -17,6 +17,9 @@ Surface shadeHit(const SurfaceMesh& mesh, std::span<const SurfaceMaterial> mater
                  glm::vec3 direction, const glm::mat4& toWorld, const glm::mat3& normalToWorld,
                  float spread = 0) noexcept;
 
+/// Asks the caches for what shadeHit() will read of the hit's triangle and its base colour.
+void fetchAhead(const SurfaceMesh& mesh, std::span<const SurfaceMaterial> materials, const Hit& hit) noexcept;
+
 /// Interpolated uv of the given set.
 glm::vec2 interpolateUv(const SurfaceMesh& mesh, const SurfaceTriangle& triangle, glm::vec2 barycentric,
                         int texCoord) noexcept;

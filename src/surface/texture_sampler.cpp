@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/common.hpp>
 
+#include "core/prefetch.h"
 #include "kernels/colour.h"
 #include "kernels/texture.h"
 
@@ -103,6 +104,13 @@ glm::vec3 TextureSampler::data(const Level& on, glm::vec2 uv) const noexcept {
         return glm::vec3(texel[0], texel[1], texel[2]);
     };
     return kernels::blendTexels(f.weights, fetch(0), fetch(1), fetch(2), fetch(3)) * (1.0f / 255.0f);
+}
+
+void TextureSampler::fetchAhead(glm::vec2 uv) const noexcept {
+    if (!present()) return;
+    const Footprint f = footprint(uv, m_width, m_height);
+    prefetch(m_texels + f.offset[0]);
+    prefetch(m_texels + f.offset[2]);
 }
 
 float TextureSampler::alpha(glm::vec2 uv) const noexcept {

@@ -38,6 +38,8 @@ public:
     /// RGB as it is stored, divided by 255.
     glm::vec3 data(glm::vec2 uv) const noexcept;
     glm::vec3 data(glm::vec2 uv, float level) const noexcept;
+    /// Asks the caches for the texels that color(uv) and data(uv) will read.
+    void fetchAhead(glm::vec2 uv) const noexcept;
     /// Alpha divided by 255.
     float alpha(glm::vec2 uv) const noexcept;
     /// Bounds of alpha over all texels, 0..1.
