@@ -50,7 +50,7 @@ Json skyOf(const Sky& sky) {
 }
 
 Json gridOf(const Scene& scene, const ScenePose& pose) {
-    const Result<GridDesc> grid = scene.grid ? Result<GridDesc>(*scene.grid) : placeGrid(pose.bounds);
+    const Result<GridDesc> grid = scene.grid ? Result<GridDesc>(*scene.grid) : automaticGrid(scene, pose);
     if (!grid) return nullptr;
     return {{"source", scene.grid ? "scene" : "automatic"},
             {"origin", toJson(grid->origin + scene.origin)},
@@ -122,7 +122,7 @@ void printGrid(const Json& grid) {
     const Json& n = grid["counts"];
     fmt::print("probe grid  {} x {} x {} = {} probes from {} every {} m ({})\n", n[0].get<int>(), n[1].get<int>(),
                n[2].get<int>(), grid["probes"].get<int>(), vectorText(grid["origin"]), vectorText(grid["spacing"]),
-               grid["source"] == "scene" ? "from the scene" : "placed automatically");
+               grid["source"] == "scene" ? "from the scene" : "placed automatically, by bounds and walls");
 }
 
 void printText(const Json& info) {

@@ -136,7 +136,7 @@ Result<GridDesc> makeGrid(const SceneOptions& options, const Scene& scene, const
         placement.counts = *parseCounts(options.probes);
     else if (scene.grid)
         return *scene.grid;
-    return placeGrid(pose.bounds, placement);
+    return automaticGrid(scene, pose, placement, options.threads);
 }
 
 // How far a box reaches beyond the grid's outermost probes, in cells of the axis where it is farthest.
@@ -178,6 +178,18 @@ Result<LoadedScene> readScene(const SceneOptions& options) {
     auto scene = makeBuiltinScene(std::string_view(options.scene).substr(kBuiltinPrefix.size()), options.builtin);
     if (!scene) return scene.error();
     return LoadedScene{std::move(*scene), {}, {}};
+}
+
+// By rays on the CPU whatever the backend, so that the grid is the same on all of them.
+Result<GridDesc> automaticGrid(const Scene& scene, const ScenePose& pose, const PlacementDesc& placement, int threads) {
+    auto byBounds = placeGrid(pose.bounds, placement);
+    if (!byBounds) return byBounds;
+    const auto context = Context::create({.threads = threads, .log = {}, .progress = {}});
+    if (!context) return context.error();
+    const auto tracer = makeEmbreeTracer(*context, scene, pose);
+    if (tracer) return placeGrid(**tracer, placement);
+    if (tracer.error().code == ErrorCode::unsupported) return byBounds;
+    return tracer.error();
 }
 
 float shownExposure(const LoadedSetup& setup, const HdrImage& color) {

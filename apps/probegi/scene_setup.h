@@ -56,6 +56,10 @@ struct LoadedSetup {
 /// Loads or makes the scene, and nothing else.
 Result<LoadedScene> readScene(const SceneOptions& options);
 
+/// The grid where neither the scene nor the command line has one: over the scene, with an eye to its walls.
+Result<GridDesc> automaticGrid(const Scene& scene, const ScenePose& pose, const PlacementDesc& placement = {},
+                               int threads = 0);
+
 /// The exposure at which a picture is shown: the setup's, or one that follows from the picture.
 float shownExposure(const LoadedSetup& setup, const HdrImage& color);
 

@@ -209,4 +209,12 @@ struct PlacementDesc {
 /// Errors: invalidArgument (empty or non-finite bounds, counts out of range).
 PROBEGI_API Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc = {});
 
+/// The same around everything that the tracer can hit, with an eye to what lies across the grid's axes: walls, floors
+/// and ceilings, as rays from inside the scene find them. Light at a surface is best known where probes stand a fifth
+/// of a cell in front of it, so along each axis the probes are moved by up to half a cell and drawn apart or together
+/// by a few per cent; as many probes, and the margin holds. Axes along which there are no such surfaces (a scene that
+/// is turned, ground that rolls) stay as above. Takes some 16,000 rays; the same grid for the same scene. Errors: those
+/// above, and those of the tracer.
+PROBEGI_API Result<GridDesc> placeGrid(const Tracer& tracer, const PlacementDesc& desc = {});
+
 }  // namespace probegi

@@ -4,6 +4,7 @@
 
 #include "core/sentence.h"
 #include "field/layout.h"
+#include "field/walls.h"
 
 namespace probegi {
 
@@ -70,6 +71,22 @@ Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc) {
                     sentence("the scene is only ", largest, " m large: its probes would be ", closest, " m apart, and ",
                              kSmallestSpacing, " m is the least; is it in metres? scale it up"));
     grid.origin = bounds.centre() - 0.5f * grid.spacing * glm::vec3(grid.counts - 1);
+    return grid;
+}
+
+Result<GridDesc> placeGrid(const Tracer& tracer, const PlacementDesc& desc) {
+    const Bounds bounds = tracer.bounds();
+    auto grid = placeGrid(bounds, desc);
+    if (!grid) return grid;
+    const auto walls = findWalls(tracer);
+    if (!walls) return walls.error();
+    for (int axis = 0; axis < 3; ++axis) {
+        const AxisPlacement fitted =
+            fitToWalls(walls->across[std::size_t(axis)], walls->seen, {grid->origin[axis], grid->spacing[axis]},
+                       grid->counts[axis], bounds.lower[axis], bounds.upper[axis], desc.marginCells);
+        grid->origin[axis] = fitted.first;
+        grid->spacing[axis] = fitted.spacing;
+    }
     return grid;
 }
 
