@@ -75,29 +75,57 @@ Result<std::string> surfaces(const Context& context, const Options& options) {
     return surfaceTable(rows);
 }
 
-/// The Cornell box on the grid of its tests at several numbers of rays, and rooms lit from outside.
-Result<std::string> motion(const Context& context) {
+/// A row of the table of light in motion.
+struct MotionCase {
+    std::string name;
+    PlacementDesc placement;
+    int rays = 0;
+    MotionScope scope = MotionScope::changes;
+    FieldRules rules = FieldRules::measured;
+    std::string path{};  ///< empty: built in
+    glm::vec3 sky{0.0f};
+};
+
+Result<MotionResult> measureMotion(const Context& context, const MotionCase& row) {
+    tool::SceneOptions options;
+    options.scene = row.path.empty() ? "builtin:" + row.name : row.path;
+    auto loaded = tool::readScene(options);
+    if (!loaded && !row.path.empty()) return MotionResult{.scene = row.name, .missing = loaded.error().message};
+    if (!loaded) return loaded.error();
+    if (!row.path.empty()) loaded->scene.sky.radiance = row.sky;
+    FieldDesc desc;
+    desc.raysPerProbe = row.rays;
+    desc.rules = row.rules;
+    const auto grid = placeGrid(poseAt(loaded->scene).bounds, row.placement);
+    if (!grid) return grid.error();
+    desc.grid = *grid;
+    return measureMotion(context, row.name, loaded->scene, desc, row.scope);
+}
+
+/// The Cornell box on the grid of its tests at several numbers of rays, rooms lit from outside, and two scenes that are
+/// not built in, on grids so coarse that they take minutes.
+Result<std::string> motion(const Context& context, const Options& options) {
+    const PlacementDesc cornell{.counts = {8, 8, 8}}, rooms{.targetProbes = 1500}, coarse{.targetProbes = 700};
+    const std::string sponza = options.scenesFolder + "/sponza/sponza.glb",
+                      level = options.scenesFolder + "/openarena/oa_dm1.glb";
+    const glm::vec3 sky(0.6f, 0.8f, 1.2f), none(0.0f);
+    const int usual = FieldDesc{}.raysPerProbe;
+    const auto still = MotionScope::still, changes = MotionScope::changes;
+    std::vector<MotionCase> cases;
+    for (const FieldRules rules : {FieldRules::paper, FieldRules::measured})
+        for (const int rays : {64, 144, 512}) cases.push_back({"cornell", cornell, rays, changes, rules});
+    for (const int rays : {64, usual, 512}) {
+        const MotionScope scope = rays == usual ? changes : still;
+        for (const char* name : {"house", "atrium"}) cases.push_back({name, rooms, rays, scope});
+        cases.push_back({"sponza", coarse, rays, scope, FieldRules::measured, sponza, sky});
+    }
+    cases.push_back({"oa_dm1", coarse, usual, changes, FieldRules::measured, level, none});
     std::vector<MotionResult> rows;
-    const auto add = [&](const char* name, const PlacementDesc& placement, int rays, FieldRules rules) -> Result<void> {
-        const auto scene = makeBuiltinScene(name);
-        if (!scene) return scene.error();
-        FieldDesc desc;
-        desc.raysPerProbe = rays;
-        desc.rules = rules;
-        const auto grid = placeGrid(poseAt(*scene).bounds, placement);
-        if (!grid) return grid.error();
-        desc.grid = *grid;
-        auto measured = measureMotion(context, name, *scene, desc);
+    for (const MotionCase& row : cases) {
+        auto measured = measureMotion(context, row);
         if (!measured) return measured.error();
         rows.push_back(std::move(*measured));
-        return {};
-    };
-    const PlacementDesc cornell{.counts = {8, 8, 8}}, other{.targetProbes = 1500};
-    for (const FieldRules rules : {FieldRules::paper, FieldRules::measured})
-        for (const int rays : {64, 144, 512})
-            if (auto done = add("cornell", cornell, rays, rules); !done) return done.error();
-    for (const char* name : {"house", "atrium"})
-        if (auto done = add(name, other, FieldDesc{}.raysPerProbe, FieldRules::measured); !done) return done.error();
+    }
     return motionTable(rows);
 }
 
@@ -130,7 +158,7 @@ Result<void> measure(const Options& options) {
         tables += *table;
     }
     if (wanted("motion")) {
-        const auto table = motion(*context);
+        const auto table = motion(*context, options);
         if (!table) return table.error();
         tables += *table;
     }

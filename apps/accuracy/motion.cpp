@@ -189,15 +189,16 @@ std::string cell(const MotionResult& row, const std::string& change) {
 }  // namespace
 
 Result<MotionResult> measureMotion(const Context& context, const std::string& name, const Scene& scene,
-                                   const FieldDesc& desc) try {
+                                   const FieldDesc& desc, MotionScope scope) try {
     const World world(context, scene);
     Watcher watcher(surfacePoints(world));
-    MotionResult result{name, desc.rules, probeCount(desc.grid), desc.raysPerProbe, 0, 0, 0, {}};
+    MotionResult result{name, desc.rules, probeCount(desc.grid), desc.raysPerProbe, 0, 0, 0, {}, {}};
     Field field = must(Field::create(context, desc));
     for (int k = 0; k < kSettledUpdates - kStillUpdates; ++k) must(field.update(*world.tracer, world.lighting));
     measureFlicker(field, world, watcher, result);
     const std::vector<double> goal = converged(context, world, desc, watcher);
     result.settled = meanOf(watcher.look(field)) / meanOf(goal);
+    if (scope == MotionScope::still) return result;
 
     const auto follow = [&](const char* change, const World* before, const World& after,
                             const std::vector<double>& to) {
@@ -231,14 +232,19 @@ std::string motionTable(const std::vector<MotionResult>& rows) {
     table += "\n|---|---|---:|---:|---:|---:|---:|";
     for (std::size_t i = 0; i < kChanges.size(); ++i) table += "---:|";
     table += "\n";
+    std::string missing;
     for (const MotionResult& row : rows) {
+        if (!row.missing.empty()) {
+            missing += fmt::format("\nNot measured: {} ({}).\n", row.scene, row.missing);
+            continue;
+        }
         table += fmt::format("| {} | {} | {} | {} | {:.3f} | {:.2f} % | {:.2f} % |", row.scene,
                              row.rules == FieldRules::paper ? "paper" : "measured", row.probes, row.rays, row.settled,
                              100 * row.flicker, 100 * row.flicker95);
         for (const char* change : kChanges) table += fmt::format(" {} |", cell(row, change));
         table += "\n";
     }
-    return table;
+    return table + missing;
 }
 
 }  // namespace probegi::accuracy

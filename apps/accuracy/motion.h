@@ -23,13 +23,20 @@ struct MotionResult {
     double flicker = 0;    ///< temporal standard deviation over mean at surface points: mean over the points
     double flicker95 = 0;  ///< the same: 95th percentile
     std::vector<Reaction> reactions;
+    std::string missing;  ///< why the scene was not measured; empty: it was
+};
+
+/// What is measured of a scene in motion.
+enum class MotionScope {
+    still,    ///< settled light and flicker
+    changes,  ///< the reactions too
 };
 
 inline constexpr int kSettledUpdates = 300;
 
 /// Measures a scene; the desc has the grid. All lights act as they do in the scene's rest pose. Errors: those of Field.
 Result<MotionResult> measureMotion(const Context& context, const std::string& name, const Scene& scene,
-                                   const FieldDesc& desc);
+                                   const FieldDesc& desc, MotionScope scope);
 
 /// The table for docs/accuracy.md, with its heading.
 std::string motionTable(const std::vector<MotionResult>& rows);
