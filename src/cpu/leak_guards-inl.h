@@ -18,10 +18,11 @@ namespace probegi::HWY_NAMESPACE {
 ///     Real seen(const Int& probe, const Real3& fromProbe) const
 /// says, 0..1, how far each point may use a probe; `fromProbe` leads from the probe to the point with the self-shadow
 /// bias, in metres; and
-///     Real between(const Int& probe, const Int& side, const Real& distance) const
-/// how far a probe sees another one that stands `distance` metres away along an axis, up or down it: side is
-/// 2 * axis + (up ? 1 : 0). A guard is a template argument of the query, so that it costs what it does and nothing
-/// more.
+///     Real between(const Int& probe, const Along& along, const Real& distance) const
+/// how far a probe sees another one that stands `distance` metres away along an axis, up or down it, as
+///     Along along(const Int& side) const
+/// has it: side is 2 * axis + (up ? 1 : 0). A guard is a template argument of the query, so that it costs what it does
+/// and nothing more.
 
 /// The leaking baseline: every probe is as good as its place.
 class NoGuard {
@@ -32,8 +33,9 @@ public:
                                                  const kernels::HWY_NAMESPACE::Real3&) const {
         return 1.0f;
     }
-    HWY_INLINE kernels::HWY_NAMESPACE::Real between(const kernels::HWY_NAMESPACE::Int&,
-                                                    const kernels::HWY_NAMESPACE::Int&,
+    struct Along {};
+    HWY_INLINE Along along(const kernels::HWY_NAMESPACE::Int&) const { return {}; }
+    HWY_INLINE kernels::HWY_NAMESPACE::Real between(const kernels::HWY_NAMESPACE::Int&, const Along&,
                                                     const kernels::HWY_NAMESPACE::Real&) const {
         return 1.0f;
     }
@@ -73,13 +75,23 @@ public:
         return lanes::chebyshevWeight(mean, meanSquare, distance, rules);
     }
 
-    HWY_INLINE Real between(const Int& probe, const Int& side, const Real& distance) const {
+    /// The four texels around an axis.
+    struct Along {
+        Int tap[4];
+    };
+    HWY_INLINE Along along(const Int& side) const {
+        namespace lanes = kernels::HWY_NAMESPACE;
+        return {{lanes::gather(m_axisTexels[0].data(), side), lanes::gather(m_axisTexels[1].data(), side),
+                 lanes::gather(m_axisTexels[2].data(), side), lanes::gather(m_axisTexels[3].data(), side)}};
+    }
+
+    HWY_INLINE Real between(const Int& probe, const Along& along, const Real& distance) const {
         namespace lanes = kernels::HWY_NAMESPACE;
         const Int map = mapOf(probe);
         // Four equal weights: sums of integers will do.
         Int mean = 0, meanSquare = 0;
-        for (const auto& texels : m_axisTexels) {
-            const Int packed = lanes::gather(m_middle, map + lanes::gather(texels.data(), side));
+        for (const Int& tap : along.tap) {
+            const Int packed = lanes::gather(m_middle, map + tap);
             mean = mean + lanes::lowHalf(packed);
             meanSquare = meanSquare + lanes::highHalf(packed);
         }

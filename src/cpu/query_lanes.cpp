@@ -182,7 +182,7 @@ HWY_INLINE Gradients weighPairs(const FieldView& view, const Guard& guard, const
     const Int step = lanes::select(known, lanes::select(up, stride, Int(0) - stride), Int(0));
     const Int frontCorner = lanes::select(up, bit, Int(0));
     const Int frontProbe = cages.first + lanes::select(up, stride, Int(0));
-    const Int side = axis + axis + lanes::select(up, Int(1), Int(0));
+    const auto along = guard.along(axis + axis + lanes::select(up, Int(1), Int(0)));
     const Real spacing = component(axis, Real3(grid.spacing));
     // The pair's weight is that of the probe in front, without the share that the point's depth gives to its layer.
     const Real depth = component(axis, cages.alpha);
@@ -198,7 +198,7 @@ HWY_INLINE Gradients weighPairs(const FieldView& view, const Guard& guard, const
         const Real weight = lanes::gather(block.weight[0].data(), corner * Int(kLanes) + lane);
         const Real outside =
             lanes::outsideWeight(lanes::gather(view.backfaceShare, probe + step), kernels::kRulesMeasured);
-        const Real pair = weight * alongAxis * outside * guard.between(probe, side, spacing);
+        const Real pair = weight * alongAxis * outside * guard.between(probe, along, spacing);
         pairWeight = pairWeight + pair;
         lanes::store(corner, block.front[i].data());
         lanes::store(pair, block.pair[i].data());
