@@ -152,10 +152,10 @@ double shareLeft(const std::vector<double>& now, const std::vector<double>& star
     return left / whole;
 }
 
-// The sun moves by an hour or two, and the rooms of a house see other patches of it: the hardest change, for in many
-// rooms no fixed ray meets a patch, before or after.
-TEST_P(BackendMotion, aJumpOfTheSunIsFollowedInTwelveUpdates) {
-    const auto scene = makeBuiltinScene("house");
+// The sun moves by an hour or two, and other patches of the walls send its light on. Measured: 0.06 left after three
+// updates, 0.015 after six, less than 0.01 from the eighth on.
+TEST_P(BackendMotion, aJumpOfTheSunIsFollowedInSixUpdates) {
+    const auto scene = makeBuiltinScene("atrium");
     ASSERT_TRUE(scene);
     const ScenePose pose = poseAt(*scene);
     FieldDesc desc;
@@ -178,10 +178,12 @@ TEST_P(BackendMotion, aJumpOfTheSunIsFollowedInTwelveUpdates) {
     for (int frame = 0; frame < 40; ++frame) ASSERT_TRUE(field.update(*tracer, before));
     const auto left = [&] { return shareLeft(lightOf(field, probes), start, goal); };
     EXPECT_NEAR(left(), 1.0, 0.1);
-    for (int frame = 0; frame < 12; ++frame) ASSERT_TRUE(field.update(*tracer, after));
-    EXPECT_LT(std::abs(left()), 0.1);
-    for (int frame = 0; frame < 8; ++frame) ASSERT_TRUE(field.update(*tracer, after));
-    EXPECT_LT(std::abs(left()), 0.1);
+    for (int frame = 0; frame < 6; ++frame) ASSERT_TRUE(field.update(*tracer, after));
+    EXPECT_LT(std::abs(left()), 0.05);
+    for (int frame = 0; frame < 6; ++frame) {
+        ASSERT_TRUE(field.update(*tracer, after));
+        EXPECT_LT(std::abs(left()), 0.05);
+    }
 }
 
 }  // namespace
