@@ -55,7 +55,7 @@ struct FieldDesc {
     /// Points on emissive triangles that a probe looks at in each update besides its rays (Tracer::emitters), 0..16;
     /// 0: light of a lamp comes by rays that happen to meet it. FieldRules::paper: none, as in the paper.
     int emitterSamples = 4;
-    std::uint64_t seed = 1;  ///< of the per-frame ray rotation, the emitter samples and the storage dither
+    std::uint64_t seed = 1;  ///< of the per-frame ray directions, the emitter samples and the storage dither
 };
 
 /// What one ray of one probe brought home. This is the seam for engines with a ray tracer of their own.
@@ -134,7 +134,7 @@ public:
     FieldMemory memory() const noexcept;
 
     /// Unit directions of the coming update's rays, raysPerProbe of them, shared by all probes: a spherical Fibonacci
-    /// set under this frame's random rotation (section 2.3).
+    /// set that every frame shifts, with FieldRules::paper turns at random (section 2.3).
     std::span<const glm::vec3> rayDirections() const noexcept;
 
     /// Unit directions of the fixed rays, the same for all updates and probes; desc().fixedRays of them, none with

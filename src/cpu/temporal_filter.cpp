@@ -71,7 +71,7 @@ std::span<ProbeStep> TemporalFilter::chooseWindows(const Context& context, const
         for (std::size_t p = begin; p < end; ++p) {
             kernels::ProbeFilter filter = kernels::unpackFilter(storage.filters[p]);
             const kernels::LagAround around = lagAround(frame.desc.grid, m_lags, int(p));
-            const float lag = kernels::filterLag(around, filter.noise, frame.fixedDirections.empty());
+            const float lag = kernels::filterLag(around, filter.noise, filter.window, frame.fixedDirections.empty());
             filter.window = kernels::nextWindow(filter.window, filter.noise, lag, frame.longestWindow);
             filter.visibilityWindow =
                 kernels::nextVisibilityWindow(filter.visibilityWindow, around.distance, frame.longestVisibilityWindow);

@@ -29,9 +29,11 @@ FrameBooks::FrameBooks(const FieldDesc& desc) : m_desc(desc), m_directions(std::
 }
 
 void FrameBooks::turnRays() {
-    const glm::mat3 rotation = kernels::frameRotation(seedOf(m_desc), std::uint32_t(m_frame));
-    const std::uint32_t count = std::uint32_t(m_directions.size());
-    for (std::uint32_t i = 0; i < count; ++i) m_directions[i] = rotation * kernels::sphericalFibonacci(i, count);
+    const bool shifted = m_desc.rules == FieldRules::measured;
+    const std::uint32_t count = std::uint32_t(m_directions.size()), frame = std::uint32_t(m_frame);
+    const glm::mat3 rotation = kernels::frameRotation(seedOf(m_desc), shifted ? 0u : frame);
+    const glm::vec2 shift = shifted ? kernels::frameShift(seedOf(m_desc), frame, count) : glm::vec2(0.5f, 0.0f);
+    for (std::uint32_t i = 0; i < count; ++i) m_directions[i] = rotation * kernels::shiftedFibonacci(i, count, shift);
 }
 
 std::size_t FrameBooks::bytes() const noexcept {

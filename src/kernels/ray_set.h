@@ -1,5 +1,7 @@
-// Directions of the update rays: a spherical Fibonacci set (Marques et al. 2013) under one random rotation a frame
-// (DDGI paper, section 2.3), shared by all probes of a volume.
+// Directions of the update rays: a spherical Fibonacci set (Marques et al. 2013), shared by all probes of a volume. The
+// DDGI paper (section 2.3) turns it at random in every frame. By measurement it is better shifted: then the sets of
+// many frames fill each other's gaps, and their average is nearly that of one set of so many rays, while the noise of
+// independent sets falls like the square root of their number only.
 #ifndef PROBEGI_KERNELS_RAY_SET_H
 #define PROBEGI_KERNELS_RAY_SET_H
 
@@ -7,14 +9,54 @@
 
 KERNELS_BEGIN
 
-// Direction `index` of `count`, 0 <= index < count: cos(theta) = 1 - (2 i + 1) / N, phi = 2 pi frac(i / golden ratio).
-// The product with the golden ratio's reciprocal is taken in 32-bit fixed point, which is exact modulo one turn.
-KERNEL_FN vec3 sphericalFibonacci(uint index, uint count) {
-    const float turn = float((index * 2654435769u) >> 8u) * (1.0f / 16777216.0f);
-    const float phi = 2.0f * kPi * turn;
-    const float cosTheta = 1.0f - (2.0f * float(index) + 1.0f) / float(count);
+KERNEL_CONST float kUnitOf24Bits = 1.0f / 16777216.0f;
+
+// The turn from the first direction to number `index`, modulo one: 0..1. The product with the golden ratio's reciprocal
+// is taken in 32-bit fixed point, which is exact modulo one turn.
+KERNEL_FN float fibonacciTurn(uint index) {
+    return float((index * 2654435769u) >> 8u) * kUnitOf24Bits;
+}
+// The same, -1/2..1/2.
+KERNEL_FN float signedTurn(uint index) {
+    const float turn = fibonacciTurn(index);
+    return turn < 0.5f ? turn : turn - 1.0f;
+}
+
+// Direction `index` of `count`, 0 <= index < count, of the set shifted by `shift`, both 0..1: cos(theta) =
+// 1 - 2 (i + shift.x) / N, phi = 2 pi frac(i / golden ratio + shift.y).
+KERNEL_FN vec3 shiftedFibonacci(uint index, uint count, vec2 shift) {
+    const float turn = fibonacciTurn(index) + shift.y;
+    const float phi = 2.0f * kPi * (turn - floor(turn));
+    const float cosTheta = 1.0f - 2.0f * (float(index) + shift.x) / float(count);
     const float sinTheta = sqrt(max(0.0f, 1.0f - cosTheta * cosTheta));
     return vec3(cos(phi) * sinTheta, sin(phi) * sinTheta, cosTheta);
+}
+
+// The set as it is published.
+KERNEL_FN vec3 sphericalFibonacci(uint index, uint count) {
+    return shiftedFibonacci(index, count, vec2(0.5f, 0.0f));
+}
+
+// The shift of frame `frame` of a volume with seed `seed`, for a set of `count`. On the cylinder of cos(theta) and phi,
+// which keeps areas, the set is a lattice: shifts that are spread evenly over one of its cells sweep the sphere evenly.
+// The cell's sides are steps by two neighbouring Fibonacci numbers of rays, which lead to the nearest directions at the
+// equator; where in the cell follows a Kronecker sequence with the powers of the plastic number (Roberts' R2) from a
+// random start. All modulo 1, in 32-bit fixed point.
+KERNEL_FN vec2 frameShift(uint seed, uint frame, uint count) {
+    const uint state = hashCombine(hashUint(seed), 0x2545f491u);
+    const uint a = (hashUint(state) + frame * 3242174889u) >> 8u;
+    const uint b = (hashUint(state + 1u) + frame * 2447445414u) >> 8u;
+    uint shorter = 1u;
+    uint longer = 1u;
+    while (float(longer * longer) < 1.405f * float(count)) {  // pi / sqrt(5)
+        const uint sum = shorter + longer;
+        shorter = longer;
+        longer = sum;
+    }
+    const uint along = a * shorter + b * longer;  // counts are at most 4096: below 2^32
+    const float turns = float(a) * kUnitOf24Bits * signedTurn(shorter) + float(b) * kUnitOf24Bits * signedTurn(longer) -
+                        signedTurn(along >> 24u);
+    return vec2(float(along & 0xffffffu) * kUnitOf24Bits, turns - floor(turns));
 }
 
 // Uniformly distributed rotation from three independent numbers in [0, 1) (Shoemake 1992, "Uniform Random Rotations").

@@ -23,9 +23,12 @@ KERNEL_CONST int kDistanceLobes = 4;
 
 // Longest windows, in updates.
 KERNEL_CONST float kLongestWindow = 200.0f;
-// Growth of a window a update: half a frame forgets like 1 / k^2 what was averaged k updates ago, so that the first
-// frames, which lack bounces, fade.
+// Growth of a window an update, updates: half a one forgets like 1 / k^2 what was averaged before the last k updates.
 KERNEL_CONST float kWindowGrowth = 0.5f;
+// The same as a share of the window, at most: after a change of the light the first windows stay short until the
+// bounces have come, which takes some five updates. In rooms that are lit by a small patch of sun that lag is not seen:
+// it is smaller than the noise of the patch, which all probes of the room have in common.
+KERNEL_CONST float kYoungGrowth = 0.15f;
 // A probe darker than this share of its brightest neighbour is judged by that share: in the dark, a flicker of nothing
 // is a large ratio.
 KERNEL_CONST float kDarkShare = 0.05f;
@@ -196,10 +199,14 @@ KERNEL_FN float lagBeyondNoise(float lag, float noise) {
     return sqrt(max(0.0f, lag * lag - kOwnRaysNoise * kOwnRaysNoise * noise * noise));
 }
 
-// The lag of a probe's irradiance, as a share of it.
-KERNEL_FN float filterLag(LagAround around, float noise, bool ownRays) {
-    const float bounced = kBounceLag * around.bounced / max(around.level, 1e-30f);
-    const float lag = sqrt(around.direct * around.direct + bounced * bounced);
+// The lag of a probe's irradiance, as a share of it. Bounced light has the noise of the averages that it comes from,
+// which a room's probes have in common where a small patch lights them all: what an average of this window, of updates
+// of this noise, may well have is no lag. Else noise makes windows short, and those more noise.
+KERNEL_FN float filterLag(LagAround around, float noise, float window, bool ownRays) {
+    const float left = noise * noise / max(2.0f * window - 1.0f, 1.0f);
+    const float bounced = around.bounced / max(around.level, 1e-30f);
+    const float square = kBounceLag * kBounceLag * max(bounced * bounced - left, 0.0f);
+    const float lag = sqrt(around.direct * around.direct + square);
     return ownRays ? lagBeyondNoise(lag, noise) : lag;
 }
 
@@ -210,15 +217,19 @@ KERNEL_FN float keptBy(float window) {
 
 // The window with which the coming values join the average: as long as lag allows, and lag is allowed to be as large as
 // the noise that is left in an average of that length, noise / sqrt(2 window).
-KERNEL_FN float nextWindow(float window, float noise, float lag, float longest) {
+KERNEL_FN float bearableWindow(float wished, float noise, float lag, float longest) {
     const float bearable = noise * noise / max(2.0f * lag * lag, 1e-12f);
-    return clamp(min(window + kWindowGrowth, bearable), 1.0f, max(longest, 1.0f));
+    return clamp(min(wished, bearable), 1.0f, max(longest, 1.0f));
+}
+KERNEL_FN float nextWindow(float window, float noise, float lag, float longest) {
+    return bearableWindow(window + min(kWindowGrowth, kYoungGrowth * window), noise, lag, longest);
 }
 
-// The window for distances. Their noise is not measured: kDistanceNoise stands for it.
+// The window for distances, which have no bounces to wait for. Their noise is not measured: kDistanceNoise stands for
+// it.
 KERNEL_CONST float kDistanceNoise = 0.2f;
 KERNEL_FN float nextVisibilityWindow(float window, float lag, float longest) {
-    return nextWindow(window, kDistanceNoise, lag, longest);
+    return bearableWindow(window + kWindowGrowth, kDistanceNoise, lag, longest);
 }
 
 // Joins an update's sight to the averages, at the rates of the filter's windows.

@@ -1,6 +1,7 @@
 // The temporal filter (kernels/temporal_filter.h): light in motion is followed, light that stands still is still.
 #include "backend/every_backend.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "probegi/builtin_scenes.h"
@@ -117,6 +118,72 @@ TEST_P(BackendMotion, distancesAreFollowed) {
     for (int frame = 0; frame < 60; ++frame) update(2.0f);
     for (int frame = 0; frame < 2; ++frame) update(0.5f);
     EXPECT_NEAR(field.probeDistanceMoments(13, {0, 0, 1}).x, 0.5f, 0.02f);
+}
+
+std::vector<int> openProbes(const Field& field) {
+    std::vector<int> probes;
+    for (int probe = 0; probe < probeCount(field.desc().grid); ++probe)
+        if (field.probeBackfaceShare(probe) < 0.1f) probes.push_back(probe);
+    return probes;
+}
+
+// What probes see, by the six axes.
+std::vector<double> lightOf(const Field& field, std::span<const int> probes) {
+    std::vector<double> light;
+    for (const int probe : probes)
+        for (int axis = 0; axis < 3; ++axis)
+            for (const float sign : {-1.0f, 1.0f}) {
+                glm::vec3 normal(0.0f);
+                normal[axis] = sign;
+                const glm::vec3 e = field.probeIrradiance(probe, normal);
+                light.push_back((double(e.x) + e.y + e.z) / 3);
+            }
+    return light;
+}
+
+// Share of the way from `start` to `goal` that is left; every value counts by its own light.
+double shareLeft(const std::vector<double>& now, const std::vector<double>& start, const std::vector<double>& goal) {
+    double left = 0, whole = 0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        const double level = std::max({start[i], goal[i], 1e-3});
+        left += (start[i] - goal[i]) * (now[i] - goal[i]) / (level * level);
+        whole += (start[i] - goal[i]) * (start[i] - goal[i]) / (level * level);
+    }
+    return left / whole;
+}
+
+// The sun moves by an hour or two, and other patches of the walls send its light on. Measured: 0.06 left after three
+// updates, 0.015 after six, less than 0.01 from the eighth on.
+TEST_P(BackendMotion, aJumpOfTheSunIsFollowedInSixUpdates) {
+    const auto scene = makeBuiltinScene("atrium");
+    ASSERT_TRUE(scene);
+    const ScenePose pose = poseAt(*scene);
+    FieldDesc desc;
+    desc.grid = *placeGrid(pose.bounds, {.targetProbes = 200});
+    const Lighting before{pose.lights, scene->sky};
+    Lighting after = before;
+    for (PlacedLight& light : after.lights)
+        light.direction = glm::normalize(light.direction + glm::vec3(0.35f, 0.0f, -0.35f));
+    const auto settled = [&](const Lighting& lighting) {
+        Field field = made(Field::create(context, desc));
+        EXPECT_TRUE(field.converge(*made(makeEmbreeTracer(context, *scene, pose)), lighting, 1e-9f, 100));
+        return field;
+    };
+    const Field first = settled(before);
+    const std::vector<int> probes = openProbes(first);
+    ASSERT_GT(probes.size(), 50u);
+    const std::vector<double> start = lightOf(first, probes), goal = lightOf(settled(after), probes);
+    const auto tracer = makeTracer(*scene, pose);
+    Field field = makeField(desc);
+    for (int frame = 0; frame < 40; ++frame) ASSERT_TRUE(field.update(*tracer, before));
+    const auto left = [&] { return shareLeft(lightOf(field, probes), start, goal); };
+    EXPECT_NEAR(left(), 1.0, 0.1);
+    for (int frame = 0; frame < 6; ++frame) ASSERT_TRUE(field.update(*tracer, after));
+    EXPECT_LT(std::abs(left()), 0.05);
+    for (int frame = 0; frame < 6; ++frame) {
+        ASSERT_TRUE(field.update(*tracer, after));
+        EXPECT_LT(std::abs(left()), 0.05);
+    }
 }
 
 }  // namespace

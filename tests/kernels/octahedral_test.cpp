@@ -122,7 +122,49 @@ TEST(RaySet, rotationsAreRotationsAndUniform) {
     EXPECT_LT(glm::length(meanOfZ), 4.0f / std::sqrt(float(frames)));
 }
 
+// Sets of 40 frames, turned at random or shifted: how many of their directions lie in a cap. Shifted ones say it with
+// half the error: measured 0.48 at 144 rays, independent sets have 1.
+TEST(RaySet, shiftsFillEachOthersGaps) {
+    for (const uint count : {64u, 144u, 512u}) {
+        const int trials = 100, frames = 40;
+        const float cosine = 0.98f;
+        double square[2] = {0, 0}, mean[2] = {0, 0};
+        for (uint trial = 0; trial < uint(trials); ++trial) {
+            const vec3 cap = frameRotation(999 + trial, 5)[0];
+            for (const int shifted : {0, 1}) {
+                int inside = 0;
+                for (uint frame = 0; frame < uint(frames); ++frame) {
+                    const mat3 turn = frameRotation(trial, shifted ? 0 : frame);
+                    const vec2 shift = shifted ? frameShift(trial, frame + 37, count) : vec2(0.5f, 0.0f);
+                    for (uint i = 0; i < count; ++i)
+                        inside += glm::dot(cap, turn * shiftedFibonacci(i, count, shift)) > cosine ? 1 : 0;
+                }
+                const double share = inside / (double(frames) * count) / (0.5 * (1 - cosine));
+                mean[shifted] += share / trials;
+                square[shifted] += (share - 1) * (share - 1) / trials;
+            }
+        }
+        EXPECT_NEAR(mean[1], 1.0, 0.015) << count;
+        EXPECT_LT(std::sqrt(square[1] / square[0]), 0.65) << count;
+    }
+}
+
+TEST(RaySet, shiftsAreFractionsAndKeepDirectionsUnit) {
+    for (uint frame = 0; frame < 2000; ++frame)
+        for (const uint count : {8u, 144u, 4096u}) {
+            const vec2 shift = frameShift(3, frame, count);
+            ASSERT_GE(shift.x, 0.0f);
+            ASSERT_LT(shift.x, 1.0f);
+            ASSERT_GE(shift.y, 0.0f);
+            ASSERT_LE(shift.y, 1.0f);
+            for (const uint index : {0u, count / 2, count - 1})
+                ASSERT_NEAR(glm::length(shiftedFibonacci(index, count, shift)), 1.0f, 1e-6f);
+        }
+}
+
 TEST(RaySet, differentSeedsAndFramesDiffer) {
+    EXPECT_NE(frameShift(1, 0, 144), frameShift(1, 1, 144));
+    EXPECT_NE(frameShift(1, 0, 144), frameShift(2, 0, 144));
     EXPECT_NE(frameRotation(1, 0)[0], frameRotation(1, 1)[0]);
     EXPECT_NE(frameRotation(1, 0)[0], frameRotation(2, 0)[0]);
     EXPECT_EQ(frameRotation(1, 5)[0], frameRotation(1, 5)[0]);

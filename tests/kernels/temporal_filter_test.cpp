@@ -50,18 +50,18 @@ TEST(TemporalFilter, averagesLagLikeTheProbe) {
     for (int k = 0; k < 30; ++k) advanceFilter(f, evenSight(2, 0, 0.5f));
     const float left = std::pow(1.0f - 1.0f / 20.0f, 30.0f);
     EXPECT_NEAR(f.direct[5], 2.0f - left, 1e-4f);
-    EXPECT_NEAR(filterLag(alone(probeLag(evenSight(2, 0, 0.5f), f)), 0.5f, false), left / 2.0f, 1e-4f);
+    EXPECT_NEAR(filterLag(alone(probeLag(evenSight(2, 0, 0.5f), f)), 0.5f, f.window, false), left / 2.0f, 1e-4f);
 }
 
 TEST(TemporalFilter, stillLightHasNoLag) {
-    EXPECT_EQ(filterLag(alone(probeLag(evenSight(3, 1, 0.5f), settled(3, 1, 50))), 0.1f, false), 0.0f);
+    EXPECT_EQ(filterLag(alone(probeLag(evenSight(3, 1, 0.5f), settled(3, 1, 50))), 0.1f, 50.0f, false), 0.0f);
 }
 
 TEST(TemporalFilter, changeIsARatioAtEveryBrightness) {
     for (const float level : {1e-6f, 1.0f, 1e6f}) {
         const auto lagAfter = [&](float factor) {
             const ProbeLag lag = probeLag(evenSight(factor * level, 0, 0.5f), settled(level, 0, 50));
-            return filterLag(alone(lag), 0.1f, false);
+            return filterLag(alone(lag), 0.1f, 50.0f, false);
         };
         EXPECT_NEAR(lagAfter(0.1f), 0.9f, 1e-3f);
         EXPECT_NEAR(lagAfter(10.0f), 0.9f, 1e-3f);
@@ -85,13 +85,36 @@ TEST(TemporalFilter, bouncedNoiseOfNeighboursCancels) {
         lag.level = 1.0f;
         addLag(around, lag, 1.0f, i == 0);
     }
-    EXPECT_NEAR(filterLag(around, 0.1f, false), 0.0f, 1e-6f);
+    EXPECT_NEAR(filterLag(around, 0.0f, 50.0f, false), 0.0f, 1e-6f);
 }
 
 // Bounced light that lags by a per cent of the light will lag by three when all bounces have passed it on.
 TEST(TemporalFilter, bouncedLagCountsWithItsLaterBounces) {
     const ProbeLag lag = probeLag(evenSight(3, 0.9f, 0.5f), settled(3, 1, 50));
-    EXPECT_NEAR(filterLag(alone(lag), 0.1f, false), kBounceLag * 0.1f / 4.0f, 1e-4f);
+    EXPECT_NEAR(filterLag(alone(lag), 0.0f, 50.0f, false), kBounceLag * 0.1f / 4.0f, 1e-4f);
+}
+
+// An average over a window of w updates keeps noise / sqrt(2 w - 1): so much of bounced light's change is none.
+TEST(TemporalFilter, bouncedNoiseIsNoLag) {
+    LagAround around = noLag();
+    around.level = 1.0f;
+    const float left = 0.2f / std::sqrt(2.0f * 50.0f - 1.0f);
+    for (const float sign : {-1.0f, 1.0f}) {
+        around.bounced = sign * 0.99f * left;
+        EXPECT_EQ(filterLag(around, 0.2f, 50.0f, false), 0.0f);
+        around.bounced = sign * 2.0f * left;
+        EXPECT_NEAR(filterLag(around, 0.2f, 50.0f, false), kBounceLag * std::sqrt(3.0f) * left, 1e-5f);
+    }
+    around.bounced = 0.0f;
+    around.direct = 0.3f;  // direct light has no noise
+    EXPECT_FLOAT_EQ(filterLag(around, 0.2f, 50.0f, false), 0.3f);
+}
+
+// Windows grow by a share at first, while bounces come in, and by half an update later.
+TEST(TemporalFilter, youngWindowsGrowSlowly) {
+    EXPECT_FLOAT_EQ(nextWindow(2, 0.4f, 0.0f, 200), 2.0f + 2.0f * kYoungGrowth);
+    EXPECT_FLOAT_EQ(nextWindow(10, 0.4f, 0.0f, 200), 10.5f);
+    EXPECT_FLOAT_EQ(nextVisibilityWindow(2, 0.0f, 200), 2.5f);
 }
 
 // Lag is as large as the noise that an average of that window has left: lag^2 = noise^2 / (2 window).

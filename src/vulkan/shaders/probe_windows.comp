@@ -30,7 +30,7 @@ void main() {
     if (probe >= push.probes) return;
     ProbeFilter probeFilter = unpackFilter(ProbeFilters(push.filters).at[probe]);
     const LagAround around = lagAround(gpuProbeCell(probe, probegiVolume.counts));
-    const float lag = filterLag(around, probeFilter.noise, push.ownRays != 0);
+    const float lag = filterLag(around, probeFilter.noise, probeFilter.window, push.ownRays != 0);
     probeFilter.window = nextWindow(probeFilter.window, probeFilter.noise, lag, push.longestWindow);
     probeFilter.visibilityWindow =
         nextVisibilityWindow(probeFilter.visibilityWindow, around.distance, push.longestVisibilityWindow);

@@ -11,6 +11,10 @@ void evaluate(INOUT(Lane) lane) {
     const uint count = 8u + takeBits(lane) % 4089u;
     const uint index = takeBits(lane) % count;
     giveVec3(lane, sphericalFibonacci(index, count), 5e-6f);
+    // Of the shift's second part a whole turn may be missing: the directions have none.
+    const vec2 shift = frameShift(takeBits(lane), takeBits(lane) % 100000u, count);
+    give(lane, shift.x, 0.0f);
+    giveVec3(lane, shiftedFibonacci(index, count, shift), 1e-5f);
     const float u1 = takeUnit(lane);
     const vec2 u = takeUnit2(lane);
     giveRotation(lane, randomRotation(u1, u.x, u.y));

@@ -58,8 +58,8 @@ void evaluate(INOUT(Lane) lane) {
     addLag(around, lag, 2.0f * lag.level, true);
     addLag(around, probeLag(takeSight(lane), state), 100.0f, false);
     const float noise = takeUnit(lane);
-    give(lane, filterLag(around, noise, false), 5e-5f);
-    give(lane, filterLag(around, 0.1f * noise, true), 1e-3f);
+    give(lane, filterLag(around, noise, state.window, false), 1e-3f);
+    give(lane, filterLag(around, 0.1f * noise, state.window, true), 1e-3f);
     const float share = takeUnit(lane);
     give(lane, lagBeyondNoise(share, 0.0f), 1e-5f);
     give(lane, nextWindow(state.window, noise, 0.1f + share, kLongestWindow), 1e-5f);
