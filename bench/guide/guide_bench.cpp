@@ -1,7 +1,9 @@
 // What a guide gains: variance x time of the path tracer with and without one, in interleaved runs of one thread.
-//   probegi_guide_bench [--samples N] [--size WxH] [--rounds N] [--camera N] SCENE ...
+//   probegi_guide_bench [--samples N] [--size WxH] [--rounds N] [--camera N] [--bounces N] [--edges N] SCENE ...
 // SCENE is builtin:NAME or a file. Times are those of the processor, so that a busy machine disturbs little. The gain
-// leaves the learning out, whose time stands beside it.
+// leaves the learning out, whose time stands beside it. --edges N measures, by N pairs of paths a pixel, what varies
+// within the pixels themselves, and gives the gain without that as well. --bounces N cuts the paths, to see where the
+// variance and the time are.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,14 +17,19 @@
 #include "probegi/field.h"
 #include "probegi/io.h"
 #include "probegi/reference.h"
+#include "reference/path_batch.h"
+#include "reference/pinhole_camera.h"
+#include "surface/lighting.h"
 
 namespace {
 
 using namespace probegi;
 
+constexpr std::uint64_t kEdgeSeed = 0x6564676573ull, kScaleSeed = 0x7363616c65ull;
+
 struct Settings {
     int samples = 32, rounds = 3, width = 240, height = 135;
-    int camera = 0;
+    int camera = 0, bounces = 0, edges = 0;
     std::vector<std::string> scenes;
 };
 
@@ -34,9 +41,9 @@ double luminance(glm::vec3 c) {
     return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z);
 }
 
-/// Of one sample a pixel: variance of the luminance over the picture's mean squared, and seconds.
+/// Of one sample a pixel: variance of the luminance and what it takes.
 struct Cost {
-    double variance = 0;
+    double variance = 0;  ///< mean over pixels, over the picture's mean squared
     double relative = 0;  ///< mean over pixels of variance over the pixel's own square
     double seconds = 0;
     double buildSeconds = 0;
@@ -51,7 +58,26 @@ Result<Scene> readScene(const std::string& name) {
     return std::move(loaded->scene);
 }
 
-Cost measure(const PathTracer& tracer, ReferenceDesc desc, const Field* guide) {
+/// Weighs the variances of pixels. The light of each is taken from a picture of its own: a pixel's square from the
+/// samples that also say its variance is small where the light was missed.
+class Scale {
+public:
+    explicit Scale(const HdrImage& picture) {
+        for (const glm::vec3& c : picture.pixels) m_levels.push_back(luminance(c));
+        for (const double level : m_levels) m_mean += level / double(m_levels.size());
+    }
+    void add(Cost& cost, std::size_t pixel, double variance) const {
+        const double share = variance / double(m_levels.size()), own = m_levels[pixel];
+        cost.variance += share / (m_mean * m_mean);
+        cost.relative += share / (own * own + 1e-4 * m_mean * m_mean);
+    }
+
+private:
+    std::vector<double> m_levels;
+    double m_mean = 0;
+};
+
+Cost measure(const PathTracer& tracer, ReferenceDesc desc, const Field* guide, const Scale& scale) {
     desc.guide = guide;
     Cost cost;
     const auto timed = [&](const ReferenceDesc& what) {
@@ -68,12 +94,38 @@ Cost measure(const PathTracer& tracer, ReferenceDesc desc, const Field* guide) {
     const auto [first, seconds] = timed(desc);
     cost.seconds = (seconds - cost.buildSeconds) / desc.samplesPerPixel;
     const double pixels = double(first.picture.color.pixels.size());
-    for (const glm::vec3& c : first.picture.color.pixels) cost.mean += luminance(c) / pixels;
     for (std::size_t i = 0; i < first.picture.color.pixels.size(); ++i) {
         const double error = luminance(first.standardError.pixels[i]);
-        const double own = luminance(first.picture.color.pixels[i]);
-        cost.variance += error * error * desc.samplesPerPixel / (pixels * cost.mean * cost.mean);
-        cost.relative += error * error * desc.samplesPerPixel / (pixels * (own * own + 1e-4 * cost.mean * cost.mean));
+        cost.mean += luminance(first.picture.color.pixels[i]) / pixels;
+        scale.add(cost, i, error * error * desc.samplesPerPixel);
+    }
+    return cost;
+}
+
+/// What varies within the pixels: the variance that stays however well a path goes on from where its camera ray ended.
+/// Two paths from the same hit share it and nothing else.
+Cost edgeVariance(const Transport& transport, const PictureDesc& picture, int count, const Scale& scale) {
+    const PinholeCamera camera(picture);
+    Cost cost;
+    for (std::size_t pixel = 0; pixel < std::size_t(picture.width) * std::size_t(picture.height); ++pixel) {
+        std::vector<Ray> rays;
+        std::vector<Random> random;
+        for (int i = 0; i < count; ++i) {
+            Random stream(kEdgeSeed, std::uint64_t(i) << 32 | pixel);
+            rays.insert(rays.end(), 2, camera.ray(pixel, stream.nextPair()));
+            random.push_back(stream);
+            random.emplace_back(stream.bits(), pixel);
+        }
+        std::vector<PathResult> results(rays.size());
+        (void)PathBatch(transport, {}).fromCamera(rays, random, results).value();
+        double first = 0, second = 0, both = 0;
+        for (std::size_t i = 0; i < results.size(); i += 2) {
+            const double a = luminance(results[i].color()), b = luminance(results[i + 1].color());
+            first += a;
+            second += b;
+            both += a * b;
+        }
+        scale.add(cost, pixel, (both - first * second / count) / (count - 1));
     }
     return cost;
 }
@@ -104,20 +156,41 @@ Result<void> bench(const std::string& name, const Settings& settings) {
     desc.picture.width = settings.width;
     desc.picture.height = settings.height;
     desc.samplesPerPixel = settings.samples;
-    std::vector<double> gains, relativeGains, times;
+    desc.maxBounces = settings.bounces;
+    const auto rendered = [&] {
+        ReferenceDesc fine = desc;
+        fine.samplesPerPixel *= 4;
+        fine.seed = kScaleSeed;
+        fine.guide = &*field;
+        return reference->render(fine);
+    }();
+    if (!rendered) return rendered.error();
+    const Scale scale(rendered->picture.color);
+    const std::string shortName = name.substr(name.find_last_of("/:") + 1);
+    Cost edges;
+    if (settings.edges > 0) {
+        const Transport transport{tracer->get(), lighting.lights, Emitters(*scene, pose), SkyLight(lighting.sky),
+                                  sceneMagnitude((*tracer)->bounds())};
+        edges = edgeVariance(transport, desc.picture, settings.edges, scale);
+        fmt::print("{:16} within pixels: variance {:.3f}, relative {:.3f}\n", shortName, edges.variance,
+                   edges.relative);
+    }
     for (int round = 0; round < settings.rounds; ++round) {
         desc.seed = std::uint64_t(round) + 1;
-        const Cost plain = measure(*reference, desc, nullptr);
-        const Cost guided = measure(*reference, desc, &*field);
-        gains.push_back(plain.variance * plain.seconds / (guided.variance * guided.seconds));
-        relativeGains.push_back(plain.relative * plain.seconds / (guided.relative * guided.seconds));
-        times.push_back(guided.seconds / plain.seconds);
+        const Cost plain = measure(*reference, desc, nullptr, scale);
+        const Cost guided = measure(*reference, desc, &*field, scale);
+        const double time = plain.seconds / guided.seconds;
         fmt::print(
-            "{:16} {:4.0f} -> {:4.0f} ms a sample, variance {:8.3f} -> {:8.3f}, relative {:8.3f} -> {:8.3f}, "
-            "mean {:.5f} {:.5f}, build {:.2f} s | gain {:.2f} relative {:.2f}\n",
-            name.substr(name.find_last_of("/:") + 1), plain.seconds * 1e3, guided.seconds * 1e3, plain.variance,
-            guided.variance, plain.relative, guided.relative, plain.mean, guided.mean, guided.buildSeconds,
-            gains.back(), relativeGains.back());
+            "{:16} {:5.1f} -> {:5.1f} ms a sample, variance {:8.3f} -> {:8.3f}, relative {:8.3f} -> {:8.3f}, "
+            "mean {:.5f} {:.5f}, build {:.2f} s | gain {:.2f} relative {:.2f}",
+            shortName, plain.seconds * 1e3, guided.seconds * 1e3, plain.variance, guided.variance, plain.relative,
+            guided.relative, plain.mean, guided.mean, guided.buildSeconds, plain.variance / guided.variance * time,
+            plain.relative / guided.relative * time);
+        if (settings.edges > 0)
+            fmt::print(", without edges {:.2f} relative {:.2f}",
+                       (plain.variance - edges.variance) / (guided.variance - edges.variance) * time,
+                       (plain.relative - edges.relative) / (guided.relative - edges.relative) * time);
+        fmt::print("\n");
         std::fflush(stdout);
     }
     return {};
@@ -136,6 +209,10 @@ int main(int count, char** values) {
             settings.rounds = std::max(1, std::atoi(values[++i]));
         else if (option == "--camera" && !last)
             settings.camera = std::max(0, std::atoi(values[++i]));
+        else if (option == "--bounces" && !last)
+            settings.bounces = std::max(0, std::atoi(values[++i]));
+        else if (option == "--edges" && !last)
+            settings.edges = std::max(2, std::atoi(values[++i]));
         else if (option == "--size" && !last)
             std::sscanf(values[++i], "%dx%d", &settings.width, &settings.height);
         else

@@ -132,8 +132,19 @@ RegionBoxes strongest(const GuideLessons& lessons, const Boxes& boxes, const Cla
     return out;
 }
 
-/// Variance of one sample with the region's boxes over that without, by the lights that were met.
-float varianceShare(const GuideLessons& lessons, const PathGuide& guide, const Class& in) {
+/// What one sample of the light that arrives in a region is like, by the lights that were met.
+struct Moments {
+    float mean = 0;
+    float plain = 0, guided = 0;  ///< of second order, without and with the region's boxes
+
+    /// Variance with the boxes over that without.
+    float share() const {
+        const float square = mean * mean;
+        return plain > square ? std::max(guided - square, 0.0f) / (plain - square) : 1.0f;
+    }
+};
+
+Moments moments(const GuideLessons& lessons, const PathGuide& guide, const Class& in) {
     double sum = 0, plain = 0, guided = 0;
     std::size_t light = in.firstLight;
     PathGuide::Mixture mixture;
@@ -157,8 +168,7 @@ float varianceShare(const GuideLessons& lessons, const PathGuide& guide, const C
         }
     }
     const double rays = double(in.end - in.begin) * GuideLessons::kRaysPerReceiver;
-    const double square = sum * sum / rays;
-    return plain > square ? float(std::max(guided - square, 0.0) / (plain - square)) : 1.0f;
+    return {float(sum / rays), float(plain / rays), float(guided / rays)};
 }
 
 std::vector<Class> classes(const GuideLessons& lessons) {
@@ -175,6 +185,25 @@ std::vector<Class> classes(const GuideLessons& lessons) {
     return out;
 }
 
+/// Where nobody looked around the field's mean stands for the light that arrives, with the scatter of the regions where
+/// somebody did; where no path came by, the mean of all.
+void expectLevels(const GuideLessons& lessons, std::span<const Moments> found, PathGuide& guide) {
+    double means = 0, roots = 0;
+    for (const Moments& m : found) {
+        means += double(m.mean);
+        roots += std::sqrt(double(m.plain));
+    }
+    const float scatter = means > 0 ? float(roots / means) : 1.0f;
+    double sum = 0, known = 0;
+    for (const float level : lessons.levels) {
+        sum += double(std::max(level, 0.0f));
+        known += level >= 0 ? 1 : 0;
+    }
+    const float usual = known > 0 ? float(sum / known) : 0.0f;
+    for (std::size_t i = 0; i < lessons.levels.size(); ++i)
+        guide.setExpected(i, scatter * (lessons.levels[i] >= 0 ? lessons.levels[i] : usual));
+}
+
 }  // namespace
 
 Result<PathGuide> learnGuide(const Context& context, const Transport& transport, const Field& field,
@@ -185,18 +214,23 @@ Result<PathGuide> learnGuide(const Context& context, const Transport& transport,
     if (!lessons) return lessons.error();
     const Boxes boxes = gather(*lessons, std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z}));
     const std::vector<Class> regions = classes(*lessons);
-    std::vector<RegionBoxes> found(regions.size());
+    std::vector<RegionBoxes> chosen(regions.size());
     parallelFor(context, regions.size(), 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) found[i] = strongest(*lessons, boxes, regions[i]);
+        for (std::size_t i = begin; i < end; ++i) chosen[i] = strongest(*lessons, boxes, regions[i]);
     });
     for (std::size_t i = 0; i < regions.size(); ++i)
-        guide.setRegion(lessons->receivers[regions[i].begin].region, std::move(found[i].blocks), found[i].background);
-    std::vector<float> shares(regions.size());
+        guide.setRegion(lessons->receivers[regions[i].begin].region, std::move(chosen[i].blocks), chosen[i].background);
+    std::vector<Moments> found(regions.size());
     parallelFor(context, regions.size(), 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) shares[i] = varianceShare(*lessons, guide, regions[i]);
+        for (std::size_t i = begin; i < end; ++i) found[i] = moments(*lessons, guide, regions[i]);
     });
-    for (std::size_t i = 0; i < regions.size(); ++i)
-        if (!(shares[i] < kWorthwhile)) guide.clearRegion(lessons->receivers[regions[i].begin].region);
+    expectLevels(*lessons, found, guide);
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        const std::size_t region = lessons->receivers[regions[i].begin].region;
+        const bool worthwhile = found[i].share() < kWorthwhile;
+        if (!worthwhile) guide.clearRegion(region);
+        guide.setExpected(region, std::sqrt(worthwhile ? found[i].guided : found[i].plain));
+    }
     return guide;
 }
 

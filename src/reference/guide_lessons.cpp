@@ -201,6 +201,26 @@ void learn(const Transport& transport, const Views& views, std::size_t offset, s
     out.backgroundSquares[index] = squares;
 }
 
+/// What the field says of the regions of all these receivers.
+Result<std::vector<float>> levelsOf(const Field& field, std::size_t regions, std::span<const GuideReceiver> all) {
+    std::vector<FieldQuery> queries;
+    queries.reserve(all.size());
+    for (const GuideReceiver& r : all) queries.push_back({r.position, r.normal, r.normal});
+    std::vector<glm::vec3> irradiance(all.size());
+    if (auto answered = field.irradiance(queries, irradiance); !answered) return answered.error();
+    std::vector<double> sums(regions);
+    std::vector<int> counts(regions);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const float level = kernels::luminance(irradiance[i]) / kernels::kPi;
+        sums[all[i].region] += std::isfinite(level) ? double(std::max(level, 0.0f)) : 0.0;
+        ++counts[all[i].region];
+    }
+    std::vector<float> levels(regions, -1.0f);
+    for (std::size_t i = 0; i < regions; ++i)
+        if (counts[i] > 0) levels[i] = float(sums[i] / counts[i]);
+    return levels;
+}
+
 }  // namespace
 
 Result<std::vector<GuideReceiver>> receiversSeen(const Transport& transport, std::span<const Ray> rays) {
@@ -227,6 +247,9 @@ Result<GuideLessons> takeLessons(const Context& context, const Transport& transp
         receiver.region = std::uint32_t(guide.regionOf(receiver.position, receiver.normal));
 
     GuideLessons lessons;
+    auto levels = levelsOf(field, guide.regionCount(), all);
+    if (!levels) return levels.error();
+    lessons.levels = std::move(*levels);
     lessons.receivers = choose(std::move(all));
     const std::size_t count = lessons.receivers.size();
     lessons.background.resize(count);

@@ -36,6 +36,7 @@ struct GuideLessons {
     std::vector<GuideLight> lights;        ///< by receiver
     std::vector<float> background;         ///< per receiver: sum of the radiances that are no GuideLight
     std::vector<float> backgroundSquares;  ///< per receiver: sum of their squares
+    std::vector<float> levels;             ///< per region: mean arriving radiance, says the field; negative: unknown
 };
 
 /// The points where camera rays meet surfaces. Errors: those of the tracer.

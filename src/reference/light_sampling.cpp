@@ -20,7 +20,7 @@ void PathBatch::sampleLights(Path& path, const Vertex& vertex) {
     if (!(m_fromPoints && path.reflections == 0)) samplePunctualLights(path, vertex);
     if (m_settings.strategy == Strategy::bsdfOnly) return;
     if (!m_transport.emitters.empty()) sampleEmitters(path, vertex);
-    if (!m_transport.sky.black()) sampleSky(path, vertex);
+    if (samplesSky(path)) sampleSky(path, vertex);
 }
 
 void PathBatch::samplePunctualLights(Path& path, const Vertex& vertex) {

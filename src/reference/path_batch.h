@@ -14,12 +14,12 @@ namespace probegi {
 /// batches. One thread uses a PathBatch; results depend only on the paths' random streams.
 ///
 /// Unbiased but for two ends: a throughput beyond the first three reflections faces Russian roulette with at most
-/// kMaxSurvival, so that closed rooms of albedo 1 end as well; and kMaxReflections stops what the roulette missed,
-/// which a path survives to with a probability below 0.99^4093 = 1e-17: in no picture ever.
+/// kMaxSurvival, so that closed rooms of albedo 1 end as well (a guide's begins with the first reflection); and
+/// kMaxReflections stops what the roulette missed, which a path survives to with a probability below 0.99^4093 = 1e-17:
+/// in no picture ever.
 class PathBatch {
 public:
     static constexpr int kRouletteStart = 3;
-    static constexpr int kGuidedRouletteStart = 1;  ///< with a guide
     static constexpr float kMaxSurvival = 0.99f;
     static constexpr int kMaxReflections = 4096;
     /// Up to so many punctual lights get a shadow ray each; of more, one is chosen by what it would contribute.
@@ -44,6 +44,9 @@ private:
         float firstIrradiance = 0.0f;  ///< cosine / density at the first vertex
         float pdf = 0.0f;              ///< density with which the current ray's direction was sampled
         float pdfSky = 0.0f;           ///< density with which light sampling would have chosen it, if sky is seen there
+        float levelColor = 0.0f;       ///< radiance that the first vertex was likely to send from ahead of it
+        float levelIrradiance = 0.0f;  ///< and the irradiance behind it
+        bool judged = false;           ///< by these levels, in survivalOf()
         std::uint32_t result = 0;
         int reflections = 0;
     };
@@ -55,6 +58,7 @@ private:
         glm::mat3 frame;       ///< of the shading normal
         glm::vec3 toPrevious;  ///< in the frame
         kernels::Bsdf bsdf;
+        const PathGuide::Region* region = nullptr;
         float guideShare = 0.0f;  ///< of the directions that follow `mixture`
         PathGuide::Mixture mixture;
     };
@@ -79,7 +83,8 @@ private:
 
     void begin(std::size_t count);
     Result<void> run();
-    bool shadeHit(std::size_t i);
+    Result<void> advance();
+    void shadeHit(std::size_t i);
     void addSky(const Path& path, const Ray& ray);
     void addEmission(const Path& path, const Ray& ray, const Hit& hit, const Surface& surface);
     void addTo(std::uint32_t result, Layer layer, const glm::vec3& color, const glm::vec3& irradiance);
@@ -91,8 +96,12 @@ private:
     void queuePunctual(const Path& path, const Vertex& vertex, const kernels::LightSample& light, float weight);
     void sampleEmitters(Path& path, const Vertex& vertex);
     void sampleSky(Path& path, const Vertex& vertex);
-    bool scatter(Path& path, const Vertex& vertex, Ray& ray);
-    float survivalOf(const Path& path) const;
+    bool samplesSky(const Path& path) const { return path.reflections < m_skySamples; }
+    void turn(Path& path, Vertex& vertex);
+    void scatter(Path& path, const Vertex& vertex);
+    void expect(Path& path, const Vertex& vertex) const;
+    float survivalOf(const Path& path, const Vertex& vertex) const;
+    static float reflectance(const Vertex& vertex);
     void follow(const PathGuide& guide, Vertex& vertex) const;
     float pdfScatter(const Vertex& vertex, glm::vec3 local, glm::vec3 direction) const;
     Result<void> resolveShadows();
@@ -104,11 +113,14 @@ private:
     PathSettings m_settings;
     std::span<PathResult> m_results;
     bool m_fromPoints = false;
+    int m_skySamples = 0;  ///< vertices of a path, from the first on, that sample the sky
 
     std::vector<Path> m_paths;  ///< alive; parallel with the next three
     std::vector<Ray> m_rays;
     std::vector<Hit> m_hits;
     std::vector<Surface> m_surfaces;
+    std::vector<Path> m_nextPaths;  ///< that left the vertices
+    std::vector<Ray> m_nextRays;
     std::vector<Pending> m_shadows;
     std::vector<Ray> m_shadowRays;
     std::vector<std::uint8_t> m_blocked;

@@ -35,7 +35,9 @@ std::size_t PathGuide::regionOf(glm::vec3 position, glm::vec3 normal) const noex
 }
 
 void PathGuide::setRegion(std::size_t index, std::vector<Block> blocks, float background) {
-    m_regions[index] = {std::uint32_t(m_blocks.size()), std::uint32_t(blocks.size()), background};
+    m_regions[index].firstBlock = std::uint32_t(m_blocks.size());
+    m_regions[index].blocks = std::uint32_t(blocks.size());
+    m_regions[index].background = background;
     m_blocks.insert(m_blocks.end(), blocks.begin(), blocks.end());
 }
 
@@ -67,8 +69,7 @@ void PathGuide::seenShares(const Block& block, glm::vec3 p, glm::vec3 n, float* 
     }
 }
 
-void PathGuide::mixtureAt(glm::vec3 position, glm::vec3 normal, Mixture& out) const noexcept {
-    const Region& here = m_regions[regionOf(position, normal)];
+void PathGuide::mixtureAt(const Region& here, glm::vec3 position, glm::vec3 normal, Mixture& out) const noexcept {
     out.share = 0;
     out.count = int(here.blocks);
     if (out.count == 0) return;
@@ -85,7 +86,7 @@ void PathGuide::mixtureAt(glm::vec3 position, glm::vec3 normal, Mixture& out) co
     if (share >= kMinShare) out.share = std::min(share, kMaxShare);  // not-a-number is no share
 }
 
-glm::vec3 PathGuide::sample(const Mixture& mixture, glm::vec3 position, float choice, Random& random) noexcept {
+glm::vec3 PathGuide::sample(const Mixture& mixture, glm::vec3 position, float choice, glm::vec2 u, float v) noexcept {
     const int boxes = mixture.count * kLanes;
     float left = choice * mixture.total;
     int chosen = -1;
@@ -97,8 +98,7 @@ glm::vec3 PathGuide::sample(const Mixture& mixture, glm::vec3 position, float ch
     }
     const Block& block = mixture.blocks[chosen / kLanes];
     const int lane = chosen % kLanes;
-    const glm::vec2 u = random.nextPair();
-    const glm::vec3 within(u.x, u.y, random.next());
+    const glm::vec3 within(u, v);
     glm::vec3 apart;
     for (int axis = 0; axis < 3; ++axis) {
         const float lower = block.lower[axis][lane], upper = block.upper[axis][lane];

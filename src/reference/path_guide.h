@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
 #include "probegi/grid.h"
-#include "reference/random.h"
 
 namespace probegi {
 
@@ -35,6 +35,7 @@ public:
         std::uint32_t firstBlock = 0;
         std::uint32_t blocks = 0;
         float background = 0;  ///< mean radiance, cosine-weighted, from outside the boxes
+        float expected = 0;    ///< root mean square of the arriving radiance, as sampled; 0: unknown
     };
 
     /// What the guide says at one point: the boxes, each as bright as it looks from there.
@@ -55,14 +56,22 @@ public:
     const Region& region(std::size_t index) const noexcept { return m_regions[index]; }
     /// At most kMaxBlocks blocks; an earlier list of the region is forgotten.
     void setRegion(std::size_t index, std::vector<Block> blocks, float background);
-    void clearRegion(std::size_t index) noexcept { m_regions[index] = {}; }
+    void clearRegion(std::size_t index) noexcept { m_regions[index].blocks = 0; }
+    void setExpected(std::size_t index, float expected) noexcept { m_regions[index].expected = expected; }
     /// Whether no region has a box: there is nothing to follow anywhere.
     bool empty() const noexcept;
 
+    const Region& regionAt(glm::vec3 position, glm::vec3 normal) const noexcept {
+        return m_regions[regionOf(position, normal)];
+    }
     /// share == 0: nothing to follow here. The guide must outlive the mixture.
-    void mixtureAt(glm::vec3 position, glm::vec3 normal, Mixture& out) const noexcept;
-    /// A unit direction from `position` through a box. `choice` is in 0..1; the mixture's share must not be 0.
-    static glm::vec3 sample(const Mixture& mixture, glm::vec3 position, float choice, Random& random) noexcept;
+    void mixtureAt(const Region& region, glm::vec3 position, glm::vec3 normal, Mixture& out) const noexcept;
+    void mixtureAt(glm::vec3 position, glm::vec3 normal, Mixture& out) const noexcept {
+        mixtureAt(regionAt(position, normal), position, normal, out);
+    }
+    /// A unit direction from `position` through a box. `choice`, `u` and `v` are uniform in 0..1; the mixture's share
+    /// must not be 0.
+    static glm::vec3 sample(const Mixture& mixture, glm::vec3 position, float choice, glm::vec2 u, float v) noexcept;
     /// Density of sample() per steradian.
     static float pdf(const Mixture& mixture, glm::vec3 position, glm::vec3 direction) noexcept;
 

@@ -2,7 +2,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <new>
 #include <optional>
 
@@ -13,6 +12,7 @@
 #include "reference/guide_learning.h"
 #include "reference/irradiance_estimate.h"
 #include "reference/path_batch.h"
+#include "reference/pinhole_camera.h"
 #include "surface/lighting.h"
 
 namespace probegi {
@@ -34,28 +34,6 @@ constexpr std::size_t kGuideRays = 16384;
 constexpr std::uint64_t kGuideSeed = 0x67756964696e67ull;
 /// Fewer samples say too little about their own error to stop by it.
 constexpr int kMinSamplesForError = 16;
-
-/// Rays through the pixels of a pinhole camera, uniform over each pixel.
-class PinholeCamera {
-public:
-    explicit PinholeCamera(const PictureDesc& desc)
-        : m_camera(desc.camera), m_width(desc.width), m_height(desc.height) {
-        m_up = std::tan(0.5f * desc.camera.yfov) * desc.camera.up;
-        const glm::vec3 right = glm::cross(desc.camera.forward, desc.camera.up);
-        m_right = std::tan(0.5f * desc.camera.yfov) * float(desc.width) / float(desc.height) * right;
-    }
-    Ray ray(std::size_t pixel, glm::vec2 jitter) const {
-        const float x = (float(pixel % std::size_t(m_width)) + jitter.x) / float(m_width) * 2 - 1;
-        const float y = 1 - (float(pixel / std::size_t(m_width)) + jitter.y) / float(m_height) * 2;
-        return {m_camera.position, 0.0f, glm::normalize(m_camera.forward + x * m_right + y * m_up)};
-    }
-
-private:
-    PlacedCamera m_camera;
-    int m_width;
-    int m_height;
-    glm::vec3 m_right, m_up;
-};
 
 /// When to stop, and how far there is to go.
 class StoppingRules {
@@ -169,9 +147,8 @@ Result<ReferencePicture> renderPasses(const Context& context, const Transport& t
         guide = std::move(*learned);
     }
     const double guideSeconds = desc.guide ? rules.seconds() : 0;
-    const PathSettings settings{.diffuseOnly = desc.picture.diffuseOnly,
-                                .maxBounces = desc.maxBounces,
-                                .guide = guide && !guide->empty() ? &*guide : nullptr};
+    const PathSettings settings{
+        .diffuseOnly = desc.picture.diffuseOnly, .maxBounces = desc.maxBounces, .guide = guide ? &*guide : nullptr};
     Progress progress(context, "path tracing", 1);
     int samples = 0;
     while (!rules.done(samples, film)) {
@@ -234,8 +211,7 @@ Result<std::vector<ReferenceIrradiance>> PathTracer::irradiance(std::span<const 
         if (!lessons) return lessons.error();
         learned = std::move(*lessons);
     }
-    const PathSettings settings{.diffuseOnly = diffuseOnly,
-                                .guide = learned && !learned->empty() ? &*learned : nullptr};
+    const PathSettings settings{.diffuseOnly = diffuseOnly, .guide = learned ? &*learned : nullptr};
     return estimateIrradiance(m_impl->context, m_impl->transport, settings, points, samples, seed);
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, "There is not enough memory for the reference irradiance; ask in parts.");

@@ -16,6 +16,8 @@ public:
     explicit SkyLight(const Sky& sky);
 
     bool black() const noexcept { return m_black; }
+    /// The same from everywhere.
+    bool constant() const noexcept { return m_table.empty(); }
     glm::vec3 radiance(glm::vec3 direction) const noexcept;
     /// A unit direction towards the sky for a receiver with this shading normal. The sky must not be black.
     glm::vec3 sample(glm::vec3 normal, Random& random) const noexcept;

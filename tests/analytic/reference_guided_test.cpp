@@ -35,9 +35,10 @@ PathGuide wrongGuide(glm::vec3 middle, float radius) {
 }
 
 std::vector<ReferenceIrradiance> estimate(const ReferenceWorld& world, std::span<const FieldQuery> points,
-                                          const PathGuide* guide, bool diffuseOnly = true, std::uint64_t seed = 1) {
+                                          const PathGuide* guide, bool diffuseOnly = true, std::uint64_t seed = 1,
+                                          int samples = 8000) {
     const Transport transport = world.transport();
-    return *estimateIrradiance(world.context, transport, {.diffuseOnly = diffuseOnly, .guide = guide}, points, 8000,
+    return *estimateIrradiance(world.context, transport, {.diffuseOnly = diffuseOnly, .guide = guide}, points, samples,
                                seed);
 }
 
@@ -51,12 +52,32 @@ void expectGuided(const ReferenceWorld& world, std::span<const FieldQuery> point
     }
 }
 
+/// The same, and what it expects of its regions is as wrong: nothing, far too little or far too much, so that paths end
+/// where the light is and go on where there is none.
+PathGuide wrongExpectations(glm::vec3 middle, float radius) {
+    PathGuide guide = wrongGuide(middle, radius);
+    constexpr float kLevels[] = {1.0f, 0.01f, 50.0f, 0.2f, 0.0f};
+    for (std::size_t i = 0; i < guide.regionCount(); ++i) guide.setExpected(i, kLevels[i % std::size(kLevels)]);
+    return guide;
+}
+
+/// Expectations that are wrong a thousandfold cost noise, so there are more samples; the mean stays.
+void expectUnbiased(const ReferenceWorld& world, std::span<const FieldQuery> points, const PathGuide& guide,
+                    glm::vec3 truth) {
+    const auto guided = estimate(world, points, &guide, true, 1, 64000);
+    for (const ReferenceIrradiance& e : guided) {
+        expectNear(e, truth);
+        expectSharp(e, 0.1f);
+    }
+}
+
 TEST(GuidedClosedForm, furnace) {
     Scene scene;
     addRoom(scene, {-1, 0, -2}, {3, 2.5f, 1}, addMaterial(scene, glm::vec3(0.5f), glm::vec3(1.0f)));
     const ReferenceWorld world(scene);
     const std::vector<FieldQuery> points = {{{0, 0, 0}, {0, 1, 0}, {}}, {{-1, 2.4f, 0.9f}, {1, 0, 0}, {}}};
     expectGuided(world, points, wrongGuide({1, 1.25f, -0.5f}, 1.0f), glm::vec3(2 * kPi));
+    expectUnbiased(world, points, wrongExpectations({1, 1.25f, -0.5f}, 1.0f), glm::vec3(2 * kPi));
 }
 
 /// E = P a / (4 pi R^2 (1 - a)); the sphere is exact.
@@ -75,8 +96,9 @@ TEST(GuidedClosedForm, integratingSphere) {
     tracer->addSphere(glm::vec3(0), radius, true, 0);
     const ReferenceWorld world(scene, 1, std::move(tracer));
     const std::vector<FieldQuery> points = {{{0, -radius, 0}, {0, 1, 0}, {}}, {{radius, 0, 0}, {-1, 0, 0}, {}}};
-    expectGuided(world, points, wrongGuide(glm::vec3(0), 1.2f),
-                 glm::vec3(power * albedo / (4 * kPi * radius * radius * (1 - albedo))));
+    const glm::vec3 truth(power * albedo / (4 * kPi * radius * radius * (1 - albedo)));
+    expectGuided(world, points, wrongGuide(glm::vec3(0), 1.2f), truth);
+    expectUnbiased(world, points, wrongExpectations(glm::vec3(0), 1.2f), truth);
 }
 
 TEST(GuidedClosedForm, openPlaneUnderAConstantSky) {
@@ -86,6 +108,7 @@ TEST(GuidedClosedForm, openPlaneUnderAConstantSky) {
     const ReferenceWorld world(scene);
     const std::vector<FieldQuery> points = {{{0, 0, 0}, {0, 1, 0}, {}}, {{1, 0.5f, 1}, {0, 1, 0}, {}}};
     expectGuided(world, points, wrongGuide({0, 1, 0}, 2.0f), kPi * scene.sky.radiance);
+    expectUnbiased(world, points, wrongExpectations({0, 1, 0}, 2.0f), kPi * scene.sky.radiance);
 }
 
 /// Walls from rough coats to near mirrors: the guide takes from the cosine lobe only, and the mean stays.
@@ -100,15 +123,16 @@ TEST(GuidedClosedForm, glossyWallsKeepTheirMean) {
             scene.materials[std::size_t(wall)].roughness = roughness;
             scene.materials[std::size_t(wall)].metallic = metallic;
             const ReferenceWorld world(scene);
-            const PathGuide guide = wrongGuide(glm::vec3(0.0f), 0.7f);
             const std::vector<FieldQuery> points = {{{0.2f, -1, 0.1f}, {0, 1, 0}, {}}};
-            const auto guided = estimate(world, points, &guide, false, 2),
-                       plain = estimate(world, points, nullptr, false);
-            for (int c = 0; c < 3; ++c) {
-                ASSERT_TRUE(std::isfinite(guided[0].mean[c]));
-                EXPECT_NEAR(guided[0].mean[c], plain[0].mean[c],
-                            3 * std::hypot(guided[0].standardError[c], plain[0].standardError[c]))
-                    << "roughness " << roughness << " metallic " << metallic;
+            const auto plain = estimate(world, points, nullptr, false);
+            for (const PathGuide& guide : {wrongGuide(glm::vec3(0), 0.7f), wrongExpectations(glm::vec3(0), 0.7f)}) {
+                const auto guided = estimate(world, points, &guide, false, 2);
+                for (int c = 0; c < 3; ++c) {
+                    ASSERT_TRUE(std::isfinite(guided[0].mean[c]));
+                    EXPECT_NEAR(guided[0].mean[c], plain[0].mean[c],
+                                3 * std::hypot(guided[0].standardError[c], plain[0].standardError[c]))
+                        << "roughness " << roughness << " metallic " << metallic;
+                }
             }
         }
 }

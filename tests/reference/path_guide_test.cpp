@@ -69,7 +69,7 @@ TEST(PathGuide, samplesFollowTheDensity) {
     constexpr int kSamples = 400000;
     for (int i = 0; i < kSamples; ++i) {
         expected += g(kernels::sampleSphere(random.nextPair())) * 4 * 3.14159265 / kSamples;
-        const glm::vec3 d = PathGuide::sample(mixture, position, random.next(), random);
+        const glm::vec3 d = PathGuide::sample(mixture, position, random.next(), random.nextPair(), random.next());
         EXPECT_NEAR(glm::length(d), 1.0f, 1e-5f);
         const double p = double(PathGuide::pdf(mixture, position, d));
         if (p > 0) found += g(d) / p / kSamples;
@@ -199,6 +199,27 @@ TEST(Guided, aBlackOrMisplacedFieldIsHarmless) {
         for (const glm::vec3& c : guided->picture.color.pixels) ASSERT_TRUE(std::isfinite(c.x + c.y + c.z));
         expectBlocksAgree(*plain, *guided);
     }
+}
+
+/// A field of other light expects it in the wrong places: bright where it is dark and the other way round.
+TEST(Guided, aFieldOfOtherLightIsHarmless) {
+    const ReferenceWorld world(std::move(*makeBuiltinScene("house")), 2);
+    Lighting other;
+    other.sky.radiance = glm::vec3(0.001f, 0, 0);
+    other.lights.push_back(world.lighting.lights.front());
+    other.lights.front().direction = {0, 1, 0};
+    Field field = std::move(*Field::create(
+        world.context, {.grid = *placeGrid(world.pose.bounds, {.targetProbes = 1024}), .raysPerProbe = 64}));
+    for (int i = 0; i < 3; ++i) ASSERT_TRUE(field.update(*world.tracer, other));
+    const PathTracer tracer = world.pathTracer();
+    ReferenceDesc desc = pictureOf(world, 64);
+    const auto plain = tracer.render(desc);
+    desc.guide = &field;
+    desc.seed = 2;
+    const auto guided = tracer.render(desc);
+    ASSERT_TRUE(plain && guided);
+    for (const glm::vec3& c : guided->picture.color.pixels) ASSERT_TRUE(std::isfinite(c.x + c.y + c.z));
+    expectBlocksAgree(*plain, *guided);
 }
 
 }  // namespace
