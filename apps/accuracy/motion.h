@@ -22,8 +22,8 @@ struct MotionResult {
     double settled = 0;    ///< mean irradiance after kSettledUpdates updates over that of `converge`
     double flicker = 0;    ///< temporal standard deviation over mean at surface points: mean over the points
     double flicker95 = 0;  ///< the same: 95th percentile
-    std::vector<Reaction> reactions;
-    std::string missing;  ///< why the scene was not measured; empty: it was
+    std::vector<Reaction> reactions{};
+    std::string missing{};  ///< why the scene was not measured; empty: it was
 };
 
 /// What is measured of a scene in motion.

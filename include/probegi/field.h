@@ -38,7 +38,7 @@ enum class FieldRules : std::uint8_t {
 struct FieldDesc {
     GridDesc grid{};
     int raysPerProbe = 144;     ///< update rays a probe and frame, 8..4096
-    int fixedRays = 32;         ///< more rays a probe and update, always along the same directions: they tell change
+    int fixedRays = 16;         ///< more rays a probe and update, always along the same directions: they tell change
                                 ///< from noise (FieldRules::measured only); 0..256; 0: change is not looked for
     int irradianceTexels = 8;   ///< side of the octahedral irradiance map, 4..32, even
     int visibilityTexels = 16;  ///< side of the octahedral visibility map, 4..64, even

@@ -84,7 +84,7 @@ TEST_P(BackendMotion, fixedRaysOfTheWrongNumberAreRefused) {
 TEST_P(BackendMotion, fixedRaysAreFixedAndThePaperHasNone) {
     FieldDesc desc = motionDesc();
     Field field = makeField(desc);
-    ASSERT_EQ(field.fixedRayDirections().size(), 32u);
+    ASSERT_EQ(field.fixedRayDirections().size(), 16u);
     const glm::vec3 first = field.fixedRayDirections()[3];
     ASSERT_TRUE(field.update(constantData(desc, glm::vec3(1), 1)));
     EXPECT_EQ(field.fixedRayDirections()[3], first);
