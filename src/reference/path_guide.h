@@ -57,7 +57,10 @@ public:
     /// At most kMaxBlocks blocks; an earlier list of the region is forgotten.
     void setRegion(std::size_t index, std::vector<Block> blocks, float background);
     void clearRegion(std::size_t index) noexcept { m_regions[index].blocks = 0; }
-    void setExpected(std::size_t index, float expected) noexcept { m_regions[index].expected = expected; }
+    /// What is not positive and finite is unknown.
+    void setExpected(std::size_t index, float expected) noexcept {
+        m_regions[index].expected = expected > 0 && expected < 1e30f ? expected : 0.0f;
+    }
     /// Whether no region has a box: there is nothing to follow anywhere.
     bool empty() const noexcept;
 

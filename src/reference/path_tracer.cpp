@@ -147,8 +147,9 @@ Result<ReferencePicture> renderPasses(const Context& context, const Transport& t
         guide = std::move(*learned);
     }
     const double guideSeconds = desc.guide ? rules.seconds() : 0;
-    const PathSettings settings{
-        .diffuseOnly = desc.picture.diffuseOnly, .maxBounces = desc.maxBounces, .guide = guide ? &*guide : nullptr};
+    const PathSettings settings{.diffuseOnly = desc.picture.diffuseOnly,
+                                .maxBounces = desc.maxBounces,
+                                .guide = guide && !guide->empty() ? &*guide : nullptr};
     Progress progress(context, "path tracing", 1);
     int samples = 0;
     while (!rules.done(samples, film)) {
@@ -211,7 +212,8 @@ Result<std::vector<ReferenceIrradiance>> PathTracer::irradiance(std::span<const 
         if (!lessons) return lessons.error();
         learned = std::move(*lessons);
     }
-    const PathSettings settings{.diffuseOnly = diffuseOnly, .guide = learned ? &*learned : nullptr};
+    const PathSettings settings{.diffuseOnly = diffuseOnly,
+                                .guide = learned && !learned->empty() ? &*learned : nullptr};
     return estimateIrradiance(m_impl->context, m_impl->transport, settings, points, samples, seed);
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, "There is not enough memory for the reference irradiance; ask in parts.");
