@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Proves the tests: makes one small change to the code after the other, in a copy, and sees whether the fast tests notice.
+# Proves the tests: makes one small change to the code after the other, in a copy, and sees whether fast tests notice.
 set -euo pipefail
 
 usage() {
@@ -149,7 +149,11 @@ list_includes() {
 # change FILE LINE COLUMN LENGTH TEXT
 change() {
     TEXT=$5 awk -v line="$2" -v column="$3" -v span="$4" '
-        NR == line { $0 = substr($0 " ", 1, column - 1) ENVIRON["TEXT"] substr($0 " ", column + span); sub(/ +$/, "") } 1
+        NR == line {
+            $0 = substr($0 " ", 1, column - 1) ENVIRON["TEXT"] substr($0 " ", column + span)
+            sub(/ +$/, "")
+        }
+        { print }
     ' "$1"
 }
 
@@ -158,19 +162,21 @@ same_code() {
     [[ $2 == src/kernels/*.h ]] || return 1
     local folder
     for folder in unchanged tree; do
-        printf '#include "%s"\n' "${2#src/}" | g++ -std=c++20 -O1 -fkeep-inline-functions -x c++ -c - -o "$scratch/$1/$folder.o" \
-            -I"$scratch/$1/$folder/src" -I"$scratch/$1/tree/src" 2>/dev/null || return 1
+        printf '#include "%s"\n' "${2#src/}" |
+            g++ -std=c++20 -O1 -fkeep-inline-functions -I"$scratch/$1/$folder/src" -I"$scratch/$1/tree/src" \
+                -x c++ -c - -o "$scratch/$1/$folder.o" 2>/dev/null || return 1
     done
     cmp -s "$scratch/$1/unchanged.o" "$scratch/$1/tree.o"
 }
 
 # The test that failed, or the one that ran when the program crashed or its time was over.
 first_failure() {
-    { sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$1" | head -n 1 && sed -n 's/^\[ RUN      \] //p' "$1" | tail -n 1; } |
-        head -n 1
+    local failed
+    failed=$(sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$1" | head -n 1)
+    echo "${failed:-$(sed -n 's/^\[ RUN      \] //p' "$1" | tail -n 1)}"
 }
 
-# verdict_on COPY FILE: "killed PROGRAM.TEST", "survived", "broken" (does not compile) or "same" (no instruction differs).
+# verdict_on COPY FILE: "killed PROGRAM.TEST", "survived", "broken" (does not compile), "same" (no instruction differs).
 verdict_on() {
     local program rc touched=
     for program in $(programs_of "$2"); do
@@ -182,7 +188,10 @@ verdict_on() {
         touched=yes
         rc=0
         run_tests "$1" "$program" "${limit[$program]}" || rc=$?
-        ((rc == 0)) || { echo "killed $program.$(first_failure "$scratch/$1/test.log")" && return; }
+        if ((rc != 0)); then
+            echo "killed $program.$(first_failure "$scratch/$1/test.log")"
+            return
+        fi
     done
     if [[ -z $touched ]] && same_code "$1" "$2"; then echo same; else echo survived; fi
 }
@@ -200,17 +209,23 @@ tell_progress() {
         $(((seconds * (count - done) / done + 59) / 60)) "$line_end"
 }
 
-# Takes mutants from the common list until there are enough.
+# The number of the next mutant of the common list; each is given to one worker.
+next_number() {
+    flock "$scratch/next" sh -c 'n=$(cat "$0"); echo $((n + 1)) >"$0"; echo "$n"' "$scratch/next"
+}
+
+# work COPY: tries mutants until there are enough.
 work() {
     local number=0 file line column span text verdict saved=$scratch/$1/unchanged
     while (($(count_of killed survived) < count)); do
-        number=$(flock "$scratch/next" sh -c 'n=$(cat "$0"); echo $((n + 1)) >"$0"; echo "$n"' "$scratch/next")
+        number=$(next_number)
         IFS=$'\t' read -r file line column span text < <(sed -n "${number}p" "$scratch/mutants") || return 0
         mkdir -p "$saved/${file%/*}"
         cp "$scratch/$1/tree/$file" "$saved/$file"
         change "$saved/$file" "$line" "$column" "$span" "$text" >"$scratch/$1/tree/$file"
         verdict=$(verdict_on "$1" "$file")
-        printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "$number" "$verdict" "$file" "$line" "$column" "$span" "$text" >>"$results"
+        printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "$number" "$verdict" "$file" "$line" "$column" "$span" "$text" \
+            >>"$results"
         cp "$saved/$file" "$scratch/$1/tree/$file"
         tell_progress
     done
@@ -218,7 +233,7 @@ work() {
 
 # The first $count that compile, whoever was how fast.
 counted_results() {
-    sort -n "$results" | awk -F '\t' -v count="$count" '{ n += $2 ~ /^killed|^survived/ } n <= count { print } n >= count { exit }'
+    sort -n "$results" | awk -F '\t' -v count="$count" '{ n += $2 ~ /^killed|^survived/ } n <= count'
 }
 
 report() {
@@ -233,54 +248,62 @@ report() {
         original=$(find "$scratch"/*/unchanged/"$file" | head -n 1)
         sed -n "${line}s/^ */- /p" "$original"
         change "$original" "$line" "$column" "$span" "$text" | sed -n "${line}s/^ */+ /p"
-    done < <(grep -P '^\d+\tsurvived' "$results" | sort -t $'\t' -k 3,3 -k 4,4n)
+    done < <(awk -F '\t' '$2 == "survived"' "$results" | sort -t $'\t' -k 3,3 -k 4,4n)
     printf '\nNoticed by (program, test suite)\n'
-    sed -n 's/^[0-9]*\tkilled \([^\t]*\).*/\1/p' "$results" | sed -E 's/^([a-z]+\.)([^.]*\/)?([A-Za-z]+)\..*/\1\3/' | sort | uniq -c | sort -rn
+    cut -f 2 "$results" | sed -nE 's/^killed ([a-z]+\.)([^.]*\/)?([A-Za-z0-9_]+)\..*/\1\3/p' | sort | uniq -c | sort -rn
     printf '\nSeed %d. Left out: %d that do not compile, %d whose code is the same.\n\n' "$seed" \
         "$(count_of broken)" "$(count_of same)"
     printf '| folder | mutants | noticed | share |\n|---|---|---|---|\n'
     awk -F '\t' -v goal="$goal" '
+        function row(name, of, noticed) { printf "| %s | %d | %d | %.0f %% |\n", name, of, noticed, 100 * noticed / of }
         $2 ~ /^broken|^same/ { next }
         { sub(/\/[^\/]*$/, "", $3); ++all[$3]; ++total }
         $2 ~ /^killed/ { ++killed[$3]; ++noticed }
         END {
-            for (folder in all) printf "| %s | %d | %d | %.0f %% |\n", folder, all[folder], killed[folder], 100 * killed[folder] / all[folder]
-            if (total > 0) printf "| all | %d | %d | %.0f %% |\n", total, noticed, 100 * noticed / total
+            for (folder in all) row(folder, all[folder], killed[folder])
+            if (total > 0) row("all", total, noticed)
             exit 100 * noticed < goal * total
-        }' "$results"
+        }' "$results" || exit 1
 }
 
-if [[ -n $list ]]; then
-    shuffled_mutants | awk -v count="$count" 'NR <= count'
-    exit 0
-fi
-for tool in cmake ninja g++ git flock; do
-    command -v "$tool" >/dev/null || die "there is no $tool; run scripts/setup.sh test"
-done
-mkdir -p "$scratch"
-exec 9>"$scratch/lock"
-flock -n 9 || die "another run works in $scratch"
-for ((copy = 1; copy <= jobs; ++copy)); do build_copy "$copy"; done
-measure_unchanged
-list_includes >"$scratch/includes"
-# Of files that are compiled.
-shuffled_mutants | awk -F '\t' 'NR == FNR { sub(/^[^ ]* /, ""); compiled[$0] = 1; next } $1 in compiled' \
-    "$scratch/includes" - >"$scratch/mutants"
-: >"$results"
-echo 1 >"$scratch/next"
-began=$SECONDS line_start='' line_end=$'\n'
-[[ ! -t 1 ]] || line_start=$'\r' line_end='   '
-set -m  # workers are process groups of their own, so that Ctrl-C ends what they started too
 workers=()
 kill_workers() {
     local worker
     for worker in "${workers[@]}"; do kill -- "-$worker" 2>/dev/null || true; done
     wait
 }
-trap report EXIT
-trap 'exit 130' INT TERM
-for ((copy = 1; copy <= jobs; ++copy)); do
-    work "$copy" &
-    workers+=($!)
-done
-wait
+
+main() {
+    local tool copy
+    if [[ -n $list ]]; then
+        shuffled_mutants | awk -v count="$count" 'NR <= count'
+        return
+    fi
+    for tool in cmake ninja g++ git flock; do
+        command -v "$tool" >/dev/null || die "there is no $tool; run scripts/setup.sh test"
+    done
+    mkdir -p "$scratch"
+    exec 9>"$scratch/lock"
+    flock -n 9 || die "another run works in $scratch"
+    for ((copy = 1; copy <= jobs; ++copy)); do build_copy "$copy"; done
+    measure_unchanged
+    list_includes >"$scratch/includes"
+    # Of files that are compiled.
+    shuffled_mutants | awk -F '\t' 'NR == FNR { sub(/^[^ ]* /, ""); compiled[$0] = 1; next } $1 in compiled' \
+        "$scratch/includes" - >"$scratch/mutants"
+    : >"$results"
+    echo 1 >"$scratch/next"
+    began=$SECONDS line_start='' line_end=$'\n'
+    [[ ! -t 1 ]] || line_start=$'\r' line_end='   '
+    set -m  # workers are process groups of their own, so that Ctrl-C ends what they started too
+    trap report EXIT
+    trap 'exit 130' INT TERM
+    for ((copy = 1; copy <= jobs; ++copy)); do
+        work "$copy" &
+        workers+=($!)
+    done
+    wait
+}
+
+main
+exit  # nothing after a run is read from this file, which may have changed by then

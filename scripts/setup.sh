@@ -16,6 +16,7 @@ build_packages=(
 )
 test_packages=(
     libgtest-dev libgmock-dev libbenchmark-dev
+    git  # scripts/mutate.sh copies what it lists
     vulkan-validationlayers vulkan-tools     # checked Vulkan; which devices there are
     chromium chromium-driver nodejs          # opens report.html
     g++-mingw-w64-x86-64-posix wine64 wine   # the own-rays configuration for Windows, and what runs it

@@ -63,6 +63,19 @@ TEST(FieldWindows, neighboursOfAProbeThatLagsFollow) {
     for (int x = 2; x < kAlong; ++x) EXPECT_NEAR(row.followed(x), 0.05, 0.04) << x;
 }
 
+// At the other end of the grid too, across all three axes.
+TEST(FieldWindows, theLastProbeIsHeard) {
+    Row row;
+    row.update(40);
+    row.light = 3;
+    for (std::size_t i = 0; i < kFixed; ++i) row.fixed[row.fixed.size() - 1 - i].direct = 3;
+    row.update(1);
+    EXPECT_NEAR(row.followed(4 * kAlong - 1), 1, 0.25);
+    EXPECT_NEAR(row.followed(kAlong - 1), 1, 0.25) << "a neighbour along y and z";
+    EXPECT_NEAR(row.followed(kAlong - 2), 1, 0.25) << "along all axes";
+    EXPECT_NEAR(row.followed(kAlong - 3), 0.05, 0.04);
+}
+
 TEST(FieldWindows, distancesHaveWindowsOfTheirOwn) {
     Row row;
     row.update(40);

@@ -147,6 +147,18 @@ TEST_P(Sampling, weightsAverageToTheAlbedo) {
 INSTANTIATE_TEST_SUITE_P(materials, Sampling,
                          testing::Combine(testing::Values(0.0f, 0.5f, 1.0f), testing::Values(0.4f, 0.7f, 1.0f)));
 
+/// By energy, but each lobe of a material that has both gets a tenth of the samples at least.
+TEST(Bsdf, lobesAreChosenByEnergy) {
+    const auto probability = [](float base, float metallic, bool diffuseOnly) {
+        return diffuseProbability(makeBsdf(vec3(base), metallic, 0.5f, diffuseOnly), vec3(0, 0, 1));
+    };
+    EXPECT_FLOAT_EQ(probability(1, 0, false), 0.9f);
+    EXPECT_NEAR(probability(0.05f, 0, false), 0.05 * 0.96 / (0.05 * 0.96 + 0.04), 1e-6);
+    EXPECT_FLOAT_EQ(probability(1e-4f, 0, false), 0.1f);
+    EXPECT_EQ(probability(1, 1, false), 0.0f);
+    EXPECT_EQ(probability(0.3f, 0, true), 1.0f);
+}
+
 /// The smoothest material that exists here: a mirror, and finite.
 TEST(Bsdf, ofRoughnessZeroIsAMirror) {
     const Bsdf b = makeBsdf(vec3(1.0f), 1.0f, 0.0f, false);
