@@ -147,6 +147,14 @@ TEST_P(Sampling, weightsAverageToTheAlbedo) {
 INSTANTIATE_TEST_SUITE_P(materials, Sampling,
                          testing::Combine(testing::Values(0.0f, 0.5f, 1.0f), testing::Values(0.4f, 0.7f, 1.0f)));
 
+/// Appendix B.3.5.
+TEST(Bsdf, metalsHaveTheirColourInTheCoat) {
+    const Bsdf b = makeBsdf(vec3(0.8f), 0.25f, 0.5f, false);
+    EXPECT_FLOAT_EQ(b.diffuse.y, 0.75f * 0.8f);
+    EXPECT_FLOAT_EQ(b.f0.y, 0.75f * 0.04f + 0.25f * 0.8f);
+    EXPECT_FLOAT_EQ(b.alpha, 0.25f);
+}
+
 /// By energy, but each lobe of a material that has both gets a tenth of the samples at least.
 TEST(Bsdf, lobesAreChosenByEnergy) {
     const auto probability = [](float base, float metallic, bool diffuseOnly) {
