@@ -145,7 +145,7 @@ FieldMemory CpuField::memory() const noexcept {
             bytes(m_storage.filters) + bytes(m_storage.backfaceShare) + bytes(m_storage.sides) +
                 bytes(m_irradianceTaps) + bytes(m_visibilityTaps) + sizeof(*this),
             bytes(m_rayData) + bytes(m_fixedRays) + bytes(m_emitterLights) + bytes(m_weights.irradiance) +
-                bytes(m_weights.visibility) + m_filter.bytes()};
+                bytes(m_weights.visibility) + bytes(m_weights.evidence) + m_filter.bytes()};
 }
 
 float CpuField::probeBackfaceShare(int probe) const noexcept {

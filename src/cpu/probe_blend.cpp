@@ -18,12 +18,14 @@ namespace {
 // Probes a task: wide enough for the matrix product, small enough for the second-level cache.
 constexpr std::size_t kBlock = 32;
 
-// `weightsOf(n)` gives a function from a ray's direction to its weight for the texel in direction n.
+// `weightsOf(n)` gives a function from a ray's direction to its weight for the texel in direction n. `sums`: of each
+// texel's weights, before they are normalised.
 template <class WeightsOf>
 void fillWeights(const Context& context, int size, std::span<const glm::vec3> directions, std::vector<float>& out,
-                 const WeightsOf& weightsOf) {
+                 std::vector<float>& sums, const WeightsOf& weightsOf) {
     const std::size_t texels = std::size_t(size) * size;
     out.resize(directions.size() * texels);
+    sums.resize(texels);
     parallelFor(context, texels, 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t texel = begin; texel < end; ++texel) {
             const glm::vec3 n = kernels::octTexelDirection(int(texel) % size, int(texel) / size, size);
@@ -31,6 +33,7 @@ void fillWeights(const Context& context, int size, std::span<const glm::vec3> di
             float sum = 0;
             for (std::size_t ray = 0; ray < directions.size(); ++ray)
                 sum += out[ray * texels + texel] = weight(directions[ray]);
+            sums[texel] = sum;
             const float scale = kernels::normalisingFactor(sum);
             for (std::size_t ray = 0; ray < directions.size(); ++ray) out[ray * texels + texel] *= scale;
         }
@@ -121,13 +124,14 @@ float changeOf(const Matrix& mean, std::size_t row, std::size_t texels, const st
 }
 
 void storeVisibility(const BlendFrame& frame, const Matrix& mean, std::size_t row, std::size_t probe,
-                     std::size_t texels, std::uint32_t* map) {
+                     std::span<const float> evidence, std::uint32_t* map) {
+    const std::size_t texels = evidence.size();
     const float h = hysteresisOf(frame, probe).visibility;
     const float* d = &mean(row, 0);
     const float* dd = &mean(row + 1, 0);
     for (std::size_t t = 0; t < texels; ++t)
-        map[t] = kernels::blendVisibilityTexel(map[t], {d[t], dd[t]}, h, frame.ditherSeed,
-                                               std::uint32_t(probe * texels + t));
+        map[t] = kernels::blendVisibilityTexel(map[t], {d[t], dd[t]}, kernels::keptMoments(h, evidence[t]),
+                                               frame.ditherSeed, std::uint32_t(probe * texels + t));
 }
 
 void storeSides(float kept, const kernels::SidesSeen& seen, int rays, kernels::ProbeSides& sides,
@@ -147,15 +151,17 @@ FieldStorage::FieldStorage(const FieldLayout& layout)
 
 void makeBlendWeights(const Context& context, const FieldDesc& desc, std::span<const glm::vec3> directions,
                       BlendWeights& weights) {
-    fillWeights(context, desc.irradianceTexels, directions, weights.irradiance,
+    fillWeights(context, desc.irradianceTexels, directions, weights.irradiance, weights.evidence,
                 [](glm::vec3 n) { return [n](glm::vec3 w) { return kernels::irradianceWeight(n, w); }; });
     const float exponent = desc.visibilityExponent;
-    fillWeights(context, desc.visibilityTexels, directions, weights.visibility, [&](glm::vec3 n) {
+    fillWeights(context, desc.visibilityTexels, directions, weights.visibility, weights.evidence, [&](glm::vec3 n) {
         float nearest = 0;
         for (const glm::vec3& w : directions) nearest = std::max(nearest, glm::dot(n, w));
         const float least = kernels::leastVisibilityCosine(nearest, exponent);
         return [=](glm::vec3 w) { return glm::dot(n, w) > least ? kernels::visibilityWeight(n, w, exponent) : 0.0f; };
     });
+    for (float& e : weights.evidence)
+        e = desc.rules == FieldRules::paper ? 1.0f : kernels::visibilityEvidence(e, exponent, int(directions.size()));
 }
 
 void blendProbes(const Context& context, const FieldDesc& desc, const FieldLayout& layout, const BlendWeights& weights,
@@ -181,7 +187,7 @@ void blendProbes(const Context& context, const FieldDesc& desc, const FieldLayou
             storeIrradiance(desc, frame, irradiance, 3 * row, probe, layout.irradianceTexels, map);
             storeSides(hysteresisOf(frame, probe).visibility, in.seen[row], int(layout.rays), storage.sides[probe],
                        storage.backfaceShare[probe]);
-            storeVisibility(frame, visibility, 2 * row, probe, layout.visibilityTexels,
+            storeVisibility(frame, visibility, 2 * row, probe, weights.evidence,
                             storage.visibility.data() + probe * layout.visibilityTexels);
         }
     });

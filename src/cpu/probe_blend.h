@@ -14,6 +14,7 @@ namespace probegi {
 struct BlendWeights {
     std::vector<float> irradiance;
     std::vector<float> visibility;
+    std::vector<float> evidence;  ///< [visibility texel]: kernels::visibilityEvidence(); by the paper's rules 1
 };
 
 /// Fills the weights for a frame's directions (eq. 1, and its power-cosine form for distances).

@@ -54,7 +54,9 @@ UpdateFrame FrameBooks::comingUpdate() const noexcept {
     frame.longestWindow = m_events.irradianceEvent() || m_fixedDirections.empty()
                               ? windowOf(frame.hysteresis.irradiance)
                               : kernels::kLongestWindow;
-    frame.longestVisibilityWindow = windowOf(frame.hysteresis.visibility);
+    frame.longestVisibilityWindow = m_events.visibilityEvent() || m_fixedDirections.empty()
+                                        ? windowOf(frame.hysteresis.visibility)
+                                        : kernels::kLongestVisibilityWindow;
     return frame;
 }
 
@@ -62,6 +64,7 @@ UpdateFrame FrameBooks::comingUpdateWithoutFixedRays() const noexcept {
     UpdateFrame frame = comingUpdate();
     frame.fixedDirections = {};
     frame.longestWindow = windowOf(frame.hysteresis.irradiance);
+    frame.longestVisibilityWindow = windowOf(frame.hysteresis.visibility);
     return frame;
 }
 

@@ -19,6 +19,8 @@ public:
     FrameHysteresis current(const FieldDesc& desc, bool firstFrame) const noexcept;
     /// Whether an announced change lowers the coming frame's irradiance hysteresis.
     bool irradianceEvent() const noexcept { return m_smallLight.framesLeft > 0 || m_large.framesLeft > 0; }
+    /// Whether one lowers its visibility hysteresis.
+    bool visibilityEvent() const noexcept { return m_visibility.framesLeft > 0; }
     /// Ends the frame.
     void advance() noexcept;
 

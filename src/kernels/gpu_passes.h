@@ -38,11 +38,17 @@ struct GpuRayWeight {
     float weight;
 };
 
+// What there is of them for a texel.
+struct GpuTexelRays {
+    uint count;      // entries
+    float evidence;  // visibilityEvidence(); by the paper's rules 1
+};
+
 // Weights of a frame's rays for the texels of a probe (blend_weights.comp).
 struct WeightsPush {
     uvec2 directions;         // vec3[rays]
     uvec2 irradianceWeights;  // float[ray][texel]
-    uvec2 visibilityCounts;   // uint[texel]
+    uvec2 visibilityRays;     // GpuTexelRays[texel]
     uvec2 visibilityWeights;  // GpuRayWeight[entry][texel], in the order of rays
     int rays;
     int irradianceTexels;  // of a map, all
@@ -50,6 +56,7 @@ struct WeightsPush {
     int irradianceSize;  // side of a map
     int visibilitySize;
     float visibilityExponent;
+    int rules;
 };
 
 // What the passes of one update hand to each other about a probe (kernels/temporal_filter.h).
@@ -89,7 +96,7 @@ struct BlendPush {
     uvec2 rayData;            // RayDatum[probe][ray]
     uvec2 sides;              // ProbeSides[probe]
     uvec2 irradianceWeights;  // as WeightsPush
-    uvec2 visibilityCounts;
+    uvec2 visibilityRays;
     uvec2 visibilityWeights;
     int rays;
     int probes;
@@ -210,7 +217,7 @@ KERNELS_END
 #ifdef __cplusplus
 namespace probegi::kernels {
 static_assert(offsetof(SceneConstants, bvh) == 140 && sizeof(SceneConstants) == 172 && sizeof(LightingBlock) == 40);
-static_assert(sizeof(WeightsPush) == 56 && sizeof(SolidPush) == 12 && sizeof(BlendPush) == 104 &&
+static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 12 && sizeof(BlendPush) == 104 &&
               sizeof(TracePush) == 72);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 96);
 static_assert(sizeof(FilterPush) == 76 && sizeof(GpuProbeStep) == 80);

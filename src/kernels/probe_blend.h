@@ -84,6 +84,19 @@ KERNEL_FN float visibilityWeight(vec3 texelDirection, vec3 rayDirection, float e
     return pow(max(0.0f, dot(texelDirection, rayDirection)), exponent);
 }
 
+// How much an update's rays tell of a visibility texel, as a share of what rays that are spread evenly tell on average:
+// the sum of their weights over its mean, since the power cosine's mean over all directions is 1 / (2 (exponent + 1)).
+// Few rays leave texels between them: what the nearest of them brings home is hardly theirs.
+KERNEL_FN float visibilityEvidence(float weightSum, float exponent, int rays) {
+    return weightSum * 2.0f * (exponent + 1.0f) / float(rays);
+}
+
+// Share of a texel's old moments that survives, where `kept` is that of its probe: old and new are averaged by what
+// they rest on. A probe that keeps nothing keeps nothing of any texel.
+KERNEL_FN float keptMoments(float kept, float evidence) {
+    return kept > 0.0f ? max(0.0f, 1.0f - (1.0f - kept) * evidence) : 0.0f;
+}
+
 // Distance of a ray as the visibility map averages it, in units of `maxDistance`, 0..1. A backface (negative distance)
 // counts with a fifth of its distance: "shorten their depth values by 80%" (section 4.1).
 KERNEL_FN float visibilityDistance(float signedDistance, float maxDistance) {

@@ -21,8 +21,9 @@ KERNELS_BEGIN
 KERNEL_CONST int kSightLobes = 8;
 KERNEL_CONST int kDistanceLobes = 4;
 
-// Longest windows, in updates.
+// Longest windows, in updates. That for distances is shorter: what moves may pass between the fixed rays.
 KERNEL_CONST float kLongestWindow = 200.0f;
+KERNEL_CONST float kLongestVisibilityWindow = 100.0f;
 // Growth of a window an update, updates: half a one forgets like 1 / k^2 what was averaged before the last k updates.
 KERNEL_CONST float kWindowGrowth = 0.5f;
 // The same as a share of the window, at most: after a change of the light the first windows stay short until the

@@ -79,7 +79,7 @@ private:
     Buffer m_steps, m_changes;              // what the passes of an update hand to each other
     Buffer m_directions;                    // vec3 a ray: those of the update, then the fixed ones
     Buffer m_irradianceWeights;             // float[ray][texel]
-    Buffer m_visibilityCounts;              // uint[texel]
+    Buffer m_visibilityRays;                // GpuTexelRays[texel]
     Buffer m_visibilityWeights;             // GpuRayWeight[entry][texel]
     Buffer m_hits, m_rayData, m_fixedRays;  // made by the first traced update
     Buffer m_emitterLights;                 // made by the first with emitters

@@ -80,8 +80,8 @@ VolumePasses::VolumePasses(const Device& device, const FieldDesc& desc)
                    kAddressed),
       m_irradianceWeights(device.impl(), "irradiance weights",
                           m_layout.rays * m_layout.irradianceTexels * sizeof(float), kAddressed),
-      m_visibilityCounts(device.impl(), "visibility weight counts", m_layout.visibilityTexels * sizeof(std::uint32_t),
-                         kAddressed),
+      m_visibilityRays(device.impl(), "rays of visibility texels",
+                       m_layout.visibilityTexels * sizeof(kernels::GpuTexelRays), kAddressed),
       m_visibilityWeights(device.impl(), "visibility weights",
                           m_layout.rays * m_layout.visibilityTexels * sizeof(kernels::GpuRayWeight), kAddressed) {
     writeSet();
@@ -144,7 +144,7 @@ void VolumePasses::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBi
 FieldMemory VolumePasses::memory() const noexcept {
     return {m_irradiance.bytes(), m_visibility.bytes(),
             m_states.bytes() + m_sides.bytes() + m_filters.bytes() + m_constants.bytes() + m_directions.bytes(),
-            m_irradianceWeights.bytes() + m_visibilityCounts.bytes() + m_visibilityWeights.bytes() + m_hits.bytes() +
+            m_irradianceWeights.bytes() + m_visibilityRays.bytes() + m_visibilityWeights.bytes() + m_hits.bytes() +
                 m_rayData.bytes() + m_fixedRays.bytes() + m_emitterLights.bytes() + m_steps.bytes() +
                 m_changes.bytes()};
 }
@@ -199,14 +199,15 @@ void VolumePasses::recordWeights(const Recorder& recorder, const UpdateFrame& fr
     const PassScope scope(recorder, m_device.impl(), profiler, "weights");
     recorder.push(kernels::WeightsPush{.directions = packAddress(m_directions.address()),
                                        .irradianceWeights = packAddress(m_irradianceWeights.address()),
-                                       .visibilityCounts = packAddress(m_visibilityCounts.address()),
+                                       .visibilityRays = packAddress(m_visibilityRays.address()),
                                        .visibilityWeights = packAddress(m_visibilityWeights.address()),
                                        .rays = int(m_layout.rays),
                                        .irradianceTexels = int(m_layout.irradianceTexels),
                                        .visibilityTexels = int(m_layout.visibilityTexels),
                                        .irradianceSize = frame.desc.irradianceTexels,
                                        .visibilitySize = frame.desc.visibilityTexels,
-                                       .visibilityExponent = frame.desc.visibilityExponent});
+                                       .visibilityExponent = frame.desc.visibilityExponent,
+                                       .rules = int(frame.desc.rules)});
     recorder.dispatchOver("blend_weights", m_layout.irradianceTexels + m_layout.visibilityTexels);
 }
 
@@ -248,7 +249,7 @@ void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& fram
     recorder.push(kernels::BlendPush{.rayData = packAddress(data.update),
                                      .sides = packAddress(m_sides.address()),
                                      .irradianceWeights = packAddress(m_irradianceWeights.address()),
-                                     .visibilityCounts = packAddress(m_visibilityCounts.address()),
+                                     .visibilityRays = packAddress(m_visibilityRays.address()),
                                      .visibilityWeights = packAddress(m_visibilityWeights.address()),
                                      .rays = int(m_layout.rays),
                                      .probes = int(m_layout.probes),

@@ -219,5 +219,38 @@ TEST_P(BackendBlend, hysteresisKeepsItsShareOfTheOldValue) {
     EXPECT_NEAR(field.probeDistanceMoments(5, {0, 0, 1}).y, 2.5f, 1e-3f);
 }
 
+// Few rays and a narrow lobe leave texels between the rays. What the nearest ray of one update says of them counts for
+// next to nothing; by the paper's rules for as much as a ray that hits the texel.
+TEST_P(BackendBlend, distancesOfRaysThatPassATexelByHardlyCount) {
+    for (const FieldRules rules : {FieldRules::measured, FieldRules::paper}) {
+        FieldDesc desc = descWith(BackfaceRule::zeroSample);
+        desc.rules = rules;
+        desc.raysPerProbe = 16;
+        desc.fixedRays = 0;
+        desc.visibilityHysteresis = 0.8f;
+        Field field = makeField(desc);
+        for (int i = 0; i < 40; ++i) ASSERT_TRUE(field.update(constantData(desc, glm::vec3(1.0f), 1.0f)));
+        const std::vector<glm::vec3> rays(field.rayDirections().begin(), field.rayDirections().end());
+        ASSERT_TRUE(field.update(constantData(desc, glm::vec3(1.0f), 2.0f)));
+        int near = 0, far = 0;
+        for (int texel = 0; texel < 256; ++texel) {
+            const glm::vec3 n = texelDirection(texel, 16);
+            float cosine = -1;
+            for (const glm::vec3& ray : rays) cosine = std::max(cosine, glm::dot(n, ray));
+            const float moved = field.probeDistanceMoments(4, n).x - 1;
+            if (rules == FieldRules::paper) {
+                EXPECT_NEAR(moved, 0.2f, 2e-3f);
+            } else if (cosine < 0.95f) {
+                EXPECT_LT(moved, 0.01f) << cosine;
+                ++far;
+            } else if (cosine > 0.995f) {
+                EXPECT_GT(moved, 0.5f) << cosine;
+                ++near;
+            }
+        }
+        if (rules == FieldRules::measured) EXPECT_TRUE(near > 5 && far > 40) << near << " and " << far;
+    }
+}
+
 }  // namespace
 }  // namespace probegi::test

@@ -82,7 +82,7 @@ TEST(FieldUpdate, wantsARayDatumForEachRay) {
     const FieldDesc desc = smallDesc();
     Field field = *Field::create(*Context::create({.threads = 1}), desc);
     std::vector<RayDatum> rays(8 * 64, {glm::vec3(1.0f), 1});
-    std::vector<FixedRayDatum> fixed(8 * 32, {1, 0, 1});
+    std::vector<FixedRayDatum> fixed(std::size_t(8 * desc.fixedRays), {1, 0, 1});
     for (const std::size_t wrong : {std::size_t(0), rays.size() - 1}) {
         const auto done = field.update(std::span(rays).first(wrong));
         ASSERT_FALSE(done);

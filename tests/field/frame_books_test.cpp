@@ -52,7 +52,7 @@ TEST(FrameBooks, theMeasuredRulesHaveWindows) {
     books.advance();
     EXPECT_EQ(books.frame(), 1);
     EXPECT_TRUE(books.comingUpdate().bounces);
-    EXPECT_NEAR(books.comingUpdate().longestVisibilityWindow, 5.0f, 1e-4f) << "1 / (1 - 0.8)";
+    EXPECT_EQ(first.longestVisibilityWindow, 100.0f);
     EXPECT_NE(books.comingUpdate().ditherSeed, first.ditherSeed);
     EXPECT_NE(books.comingUpdate().raySeed, first.raySeed);
     EXPECT_NE(first.raySeed, first.ditherSeed);
@@ -66,13 +66,18 @@ TEST(FrameBooks, withoutFixedRaysTheHysteresisIsTheLongestWindow) {
     EXPECT_TRUE(without.windows);
     EXPECT_TRUE(without.fixedDirections.empty());
     EXPECT_NEAR(without.longestWindow, 10.0f, 1e-4f);
+    EXPECT_NEAR(without.longestVisibilityWindow, 5.0f, 1e-4f) << "1 / (1 - 0.8)";
     FieldDesc none = smallDesc();
     none.fixedRays = 0;
     FrameBooks bare(none);
     bare.advance();
     EXPECT_NEAR(bare.comingUpdate().longestWindow, 10.0f, 1e-4f);
+    EXPECT_NEAR(bare.comingUpdate().longestVisibilityWindow, 5.0f, 1e-4f);
     books.notify(FieldEvent::largeLightChange);
     EXPECT_NEAR(books.comingUpdate().longestWindow, 1 / (1 - 0.45f), 1e-4f);
+    EXPECT_EQ(books.comingUpdate().longestVisibilityWindow, 100.0f) << "light changes no distance";
+    books.notify(FieldEvent::largeObjectChange);
+    EXPECT_NEAR(books.comingUpdate().longestVisibilityWindow, 1 / (1 - 0.4f), 1e-4f);
     EXPECT_EQ(books.comingUpdate().fixedDirections.size(), 12u);
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kernels/ray_set.h"
+
 namespace probegi::kernels {
 namespace {
 
@@ -117,6 +119,28 @@ TEST(ProbeBlend, anyChannelMayTripTheThresholds) {
     EXPECT_EQ(texelHysteresis(vec3(1.0f), vec3(0.7f), BlendRule{0.1f, 0.25f, 0.8f}), 0.0f) << "never below 0";
     EXPECT_FLOAT_EQ(texelHysteresis(vec3(1.0f), vec3(0.1f), BlendRule{0.9f, 0.25f, 0}), 0.75f);
     EXPECT_EQ(texelHysteresis(vec3(1.0f), vec3(0.1f), BlendRule{0.9f, 0, 0.8f}), 0.0f);
+}
+
+// Rays that are spread evenly, as many as integrate the lobe: every texel gets its share of them, and that is 1.
+TEST(ProbeBlend, evenRaysAreEvidenceOfOne) {
+    constexpr int kRays = 20000;
+    for (const float exponent : {1.0f, 50.0f, 200.0f})
+        for (const vec3 texel : {vec3(0, 1, 0), normalize(vec3(1, -2, 3)), normalize(vec3(-5, 0.3f, -1))}) {
+            double sum = 0;
+            for (int i = 0; i < kRays; ++i)
+                sum += visibilityWeight(texel, sphericalFibonacci(uint(i), uint(kRays)), exponent);
+            EXPECT_NEAR(visibilityEvidence(float(sum), exponent, kRays), 1.0f, 0.01f) << exponent;
+        }
+    EXPECT_FLOAT_EQ(visibilityEvidence(3.0f, 9.0f, 60), 1.0f) << "3 is 60 / (2 (9 + 1))";
+    EXPECT_EQ(visibilityEvidence(0.0f, 200.0f, 144), 0.0f);
+}
+
+TEST(ProbeBlend, momentsAreAveragedByWhatTheyRestOn) {
+    EXPECT_FLOAT_EQ(keptMoments(0.9f, 1.0f), 0.9f);
+    EXPECT_FLOAT_EQ(keptMoments(0.9f, 0.0f), 1.0f) << "no ray came near: nothing was learnt";
+    EXPECT_FLOAT_EQ(keptMoments(0.9f, 2.5f), 0.75f);
+    EXPECT_EQ(keptMoments(0.5f, 3.0f), 0.0f) << "never below 0";
+    EXPECT_EQ(keptMoments(0.0f, 0.2f), 0.0f) << "a new probe takes what there is";
 }
 
 }  // namespace

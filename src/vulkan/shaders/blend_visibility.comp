@@ -7,6 +7,7 @@
 
 #include "kernels/gpu_passes.h"
 #include "kernels/octahedral_texel.h"
+#include "kernels/probe_blend.h"
 #include "kernels/probe_texel.h"
 
 layout(push_constant, scalar) uniform Push {
@@ -15,13 +16,16 @@ layout(push_constant, scalar) uniform Push {
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer RayWeights {
     GpuRayWeight at[];
 };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TexelRays {
+    GpuTexelRays at[];
+};
 
 const int kProbes = kVisibilityGroupProbes;
 const int kRays = 256;  // that lie in shared memory at a time
 
 shared vec4 distances[kRays];  // as fractions of the farthest, of each probe
 
-void store(int probe, int texel, vec2 newMoments) {
+void store(int probe, int texel, float evidence, vec2 newMoments) {
     const int size = probegiVolume.visibilityTexels;
     const ivec3 cell = gpuProbeCell(probe, probegiVolume.counts);
     const ivec2 tile = gpuTileOrigin(cell, size);
@@ -29,9 +33,10 @@ void store(int probe, int texel, vec2 newMoments) {
     const vec2 old = imageLoad(visibilityImage, ivec3(tile + at, cell.z)).rg;
     const float kept =
         push.steps == uvec2(0u) ? push.visibilityHysteresis : ProbeSteps(push.steps).at[probe].visibilityKept;
-    const vec4 stored = vec4(unpackMoments(blendVisibilityTexel(packMoments(old), newMoments, kept, push.ditherSeed,
-                                                                uint(probe * size * size + texel))),
-                             0.0, 0.0);
+    const vec4 stored =
+        vec4(unpackMoments(blendVisibilityTexel(packMoments(old), newMoments, keptMoments(kept, evidence),
+                                                push.ditherSeed, uint(probe * size * size + texel))),
+             0.0, 0.0);
     imageStore(visibilityImage, ivec3(tile + at, cell.z), stored);
     for (int copy = 0; copy < 3; ++copy) {
         const ivec2 border = octBorderTexel(at.x, at.y, size, copy);
@@ -60,7 +65,8 @@ void main() {
     const int firstProbe = int(blockIndex()) * kProbes;
     for (int firstTexel = 0; firstTexel < texels; firstTexel += int(gl_WorkGroupSize.x)) {
         const int texel = firstTexel + int(gl_LocalInvocationID.x);
-        const uint count = texel < texels ? Uints(push.visibilityCounts).at[texel] : 0u;
+        GpuTexelRays seen = GpuTexelRays(0u, 0.0);
+        if (texel < texels) seen = TexelRays(push.visibilityRays).at[texel];
         vec4 mean = vec4(0.0), meanSquare = vec4(0.0);
         uint k = 0;
         for (int first = 0; first < push.rays; first += kRays) {
@@ -69,7 +75,7 @@ void main() {
                 loadDistances(firstProbe, first);
                 barrier();
             }
-            for (; k < count; ++k) {
+            for (; k < seen.count; ++k) {
                 const GpuRayWeight entry = RayWeights(push.visibilityWeights).at[k * texels + texel];
                 const int ray = int(entry.ray) - first;
                 if (ray >= kRays) break;  // entries are in the order of rays
@@ -80,6 +86,6 @@ void main() {
         }
         for (int p = 0; p < kProbes; ++p)
             if (texel < texels && firstProbe + p < push.probes)
-                store(firstProbe + p, texel, vec2(mean[p], meanSquare[p]));
+                store(firstProbe + p, texel, seen.evidence, vec2(mean[p], meanSquare[p]));
     }
 }

@@ -6,12 +6,16 @@
 #include "kernels/gpu_passes.h"
 #include "kernels/octahedral_texel.h"
 #include "kernels/probe_blend.h"
+#include "kernels/probe_query.h"
 
 layout(push_constant, scalar) uniform Push {
     WeightsPush push;
 };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RayWeights {
     GpuRayWeight at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer TexelRays {
+    GpuTexelRays at[];
 };
 
 void irradianceTexel(int texel) {
@@ -46,7 +50,9 @@ void visibilityTexel(int texel) {
             ++count;
         }
     }
-    Uints(push.visibilityCounts).at[texel] = count;
+    const float evidence =
+        push.rules == kRulesPaper ? 1.0 : visibilityEvidence(sum, push.visibilityExponent, push.rays);
+    TexelRays(push.visibilityRays).at[texel] = GpuTexelRays(count, evidence);
 }
 
 void main() {

@@ -32,6 +32,9 @@ void evaluate(INOUT(Lane) lane) {
     give(lane, irradianceWeight(texel, ray), 1e-6f);
     give(lane, visibilityWeight(texel, ray, 50.0f), 2e-5f);
     give(lane, leastVisibilityCosine(texel.x, 1.0f + 100.0f * rule.hysteresis), 2e-5f);
+    give(lane, visibilityEvidence(newMean.z, 1.0f + 300.0f * rule.hysteresis, 144), 2e-6f);
+    give(lane, keptMoments(rule.hysteresis, oldStored.y), 1e-6f);
+    give(lane, keptMoments(0.0f, oldStored.y), 0.0f);
     give(lane, visibilityDistance(signedDistance, 3.0f), 1e-6f);
     give(lane, visibilityDistance(1e30f, 3.0f), 1e-6f);
     give(lane, texelHysteresis(oldStored, 0.5f * newMean, rule), 1e-6f);
