@@ -227,6 +227,7 @@ TEST_P(BackendBlend, distancesOfRaysThatPassATexelByHardlyCount) {
         desc.rules = rules;
         desc.raysPerProbe = 16;
         desc.fixedRays = 0;
+        desc.visibilityExponent = 50;
         desc.visibilityHysteresis = 0.8f;
         Field field = makeField(desc);
         for (int i = 0; i < 40; ++i) ASSERT_TRUE(field.update(constantData(desc, glm::vec3(1.0f), 1.0f)));
@@ -240,15 +241,17 @@ TEST_P(BackendBlend, distancesOfRaysThatPassATexelByHardlyCount) {
             const float moved = field.probeDistanceMoments(4, n).x - 1;
             if (rules == FieldRules::paper) {
                 EXPECT_NEAR(moved, 0.2f, 2e-3f);
-            } else if (cosine < 0.95f) {
-                EXPECT_LT(moved, 0.01f) << cosine;
+            } else if (cosine < 0.93f) {
+                EXPECT_LT(moved, 0.05f) << cosine;
                 ++far;
             } else if (cosine > 0.995f) {
                 EXPECT_GT(moved, 0.5f) << cosine;
                 ++near;
             }
         }
-        if (rules == FieldRules::measured) EXPECT_TRUE(near > 5 && far > 40) << near << " and " << far;
+        if (rules == FieldRules::measured) {
+            EXPECT_TRUE(near > 5 && far > 10) << near << " and " << far;
+        }
     }
 }
 

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <vector>
 
 #include "kernels/ray_set.h"
 
@@ -20,8 +23,8 @@ FieldDesc smallDesc(FieldRules rules = FieldRules::measured) {
     return d;
 }
 
-TEST(FrameBooks, raysAreTheFibonacciSetTurned) {
-    FrameBooks books(smallDesc());
+TEST(FrameBooks, thePapersRaysAreTheFibonacciSetTurned) {
+    FrameBooks books(smallDesc(FieldRules::paper));
     ASSERT_EQ(books.rayDirections().size(), 20u);
     const std::vector<glm::vec3> first(books.rayDirections().begin(), books.rayDirections().end());
     books.advance();
@@ -31,6 +34,27 @@ TEST(FrameBooks, raysAreTheFibonacciSetTurned) {
         EXPECT_NEAR(glm::dot(first[0], first[i]), angle, 1e-5f);
         EXPECT_NEAR(glm::dot(books.rayDirections()[0], books.rayDirections()[i]), angle, 1e-5f);
     }
+}
+
+// Each ray stays in its own band about one axis, which keeps areas: after many updates every height was seen as often.
+TEST(FrameBooks, raysAreShiftedEvenlyOverTheirBands) {
+    FieldDesc desc = smallDesc();
+    desc.raysPerProbe = 144;
+    FrameBooks books(desc);
+    const glm::mat3 back = glm::transpose(kernels::frameRotation(kernels::hashCombine(1u, 0u), 0u));
+    constexpr int kFrames = 200;
+    std::vector<float> heights;
+    for (int frame = 0; frame < kFrames; ++frame, books.advance())
+        for (int i = 0; i < 144; ++i) {
+            const glm::vec3 d = back * books.rayDirections()[std::size_t(i)];
+            EXPECT_NEAR(glm::length(d), 1.0f, 1e-5f);
+            const float inBand = (1 - d.z) * 72 - float(i);
+            EXPECT_TRUE(inBand > -1e-3f && inBand < 1.001f) << i << " of update " << frame;
+            if (i == 7) heights.push_back(inBand);
+        }
+    std::sort(heights.begin(), heights.end());
+    for (int k = 0; k < kFrames; ++k)
+        EXPECT_NEAR(heights[std::size_t(k)], (float(k) + 0.5f) / kFrames, 0.03f) << "random ones deviate by 0.1";
 }
 
 TEST(FrameBooks, fixedRaysStandStillAndThePaperHasNone) {

@@ -11,8 +11,11 @@ void evaluate(INOUT(Lane) lane) {
     const uint count = 8u + takeBits(lane) % 4089u;
     const uint index = takeBits(lane) % count;
     giveVec3(lane, sphericalFibonacci(index, count), 5e-6f);
+    give(lane, fibonacciTurn(index), 0.0f);
+    give(lane, signedTurn(index), 0.0f);
     // Of the shift's second part a whole turn may be missing: the directions have none.
-    const vec2 shift = frameShift(takeBits(lane), takeBits(lane) % 100000u, count);
+    const uint volume = takeBits(lane);
+    const vec2 shift = frameShift(volume, takeBits(lane) % 100000u, count);
     give(lane, shift.x, 0.0f);
     giveVec3(lane, shiftedFibonacci(index, count, shift), 1e-5f);
     const float u1 = takeUnit(lane);

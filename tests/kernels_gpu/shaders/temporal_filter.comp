@@ -62,6 +62,7 @@ void evaluate(INOUT(Lane) lane) {
     give(lane, filterLag(around, 0.1f * noise, state.window, true), 1e-3f);
     const float share = takeUnit(lane);
     give(lane, lagBeyondNoise(share, 0.0f), 1e-5f);
+    give(lane, bearableWindow(state.window, noise, 0.1f + share, kLongestWindow), 1e-5f);
     give(lane, nextWindow(state.window, noise, 0.1f + share, kLongestWindow), 1e-5f);
     give(lane, nextVisibilityWindow(state.visibilityWindow, 0.1f + share, 33.0f), 1e-5f);
     give(lane, keptBy(state.window), 1e-5f);
