@@ -48,7 +48,7 @@ struct FieldDesc {
     float visibilityExponent = 200.0f;   ///< power of the cosine that weights distances, 1..500
     float selfShadowBias = 0.3f;         ///< TunableShadowBias of eq. 2, 0..2
     float significantChange = 0.25f;     ///< Listing 3, 0..1, change of the encoded texel over the larger; 0 disables
-    float newDistribution = 0.8f;        ///< Listing 3, 0..1, same scale; 0 disables
+    float newDistribution = 0.8f;        ///< Listing 3, 0..1, same scale; 0 disables; both with FieldRules::paper only
     BackfaceRule backfaceRule = BackfaceRule::zeroSample;
     LeakGuard guard = LeakGuard::moments;
     FieldRules rules = FieldRules::measured;

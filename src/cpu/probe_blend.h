@@ -9,7 +9,7 @@
 
 namespace probegi {
 
-/// Weights of every ray of a frame for every texel of a probe: since all probes share the frame's rotated rays, the
+/// Weights of every ray of a frame for every texel of a probe: since all probes share the frame's rays, the
 /// blend of all probes is a product with these two matrices. Both are [ray][texel], and normalised over the rays.
 struct BlendWeights {
     std::vector<float> irradiance;
