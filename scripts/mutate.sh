@@ -245,7 +245,7 @@ report() {
     printf '\n\nSurvivors\n'
     while IFS=$'\t' read -r _ _ file line column span text; do
         printf '\n%s:%d\n' "$file" "$line"
-        original=$(find "$scratch"/*/unchanged/"$file" | head -n 1)
+        original=$(for ((copy = 1; copy <= jobs; ++copy)); do ls "$scratch/$copy/unchanged/$file" 2>/dev/null || true; done | head -n 1)
         sed -n "${line}s/^ */- /p" "$original"
         change "$original" "$line" "$column" "$span" "$text" | sed -n "${line}s/^ */+ /p"
     done < <(awk -F '\t' '$2 == "survived"' "$results" | sort -t $'\t' -k 3,3 -k 4,4n)

@@ -46,7 +46,7 @@ unpacked_driver() { ls build/mesa-"$1"/usr/lib/*/libvulkan_lvp.so 2>/dev/null ||
 is_unpacked() {
     local driver
     driver=$(unpacked_driver "$1")
-    [[ -n $driver ]] && ! ldd "$driver" | grep -q 'not found'
+    [[ -n $driver ]] && ! grep -q 'not found' <<<"$(ldd "$driver")"
 }
 
 # unpack_mesa NAME VERSION: the software driver beside the system's, in build/mesa-NAME.

@@ -44,7 +44,7 @@ struct FieldDesc {
     int visibilityTexels = 16;  ///< side of the octahedral visibility map, 4..64, even
     float hysteresis = 0.97f;   ///< share of the old irradiance that survives an update (alpha of eq. 1), 0..0.999;
                                 ///< with FieldRules::measured only after events, and where there are no fixed rays
-    float visibilityHysteresis = 0.97f;  ///< the same for distance moments, 0..0.999
+    float visibilityHysteresis = 0.97f;  ///< the same for distance moments, on average over texels, 0..0.999
     float visibilityExponent = 200.0f;   ///< power of the cosine that weights distances, 1..500
     float selfShadowBias = 0.3f;         ///< TunableShadowBias of eq. 2, 0..2
     float significantChange = 0.25f;     ///< Listing 3, 0..1, change of the encoded texel over the larger; 0 disables

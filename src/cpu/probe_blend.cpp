@@ -18,14 +18,14 @@ namespace {
 // Probes a task: wide enough for the matrix product, small enough for the second-level cache.
 constexpr std::size_t kBlock = 32;
 
-// `weightsOf(n)` gives a function from a ray's direction to its weight for the texel in direction n. `sums`: of each
-// texel's weights, before they are normalised.
+// `weightsOf(n)` gives a function from a ray's direction to its weight for the texel in direction n. Returns the sums
+// of each texel's weights, before they are normalised.
 template <class WeightsOf>
-void fillWeights(const Context& context, int size, std::span<const glm::vec3> directions, std::vector<float>& out,
-                 std::vector<float>& sums, const WeightsOf& weightsOf) {
+std::vector<float> fillWeights(const Context& context, int size, std::span<const glm::vec3> directions,
+                               std::vector<float>& out, const WeightsOf& weightsOf) {
     const std::size_t texels = std::size_t(size) * size;
     out.resize(directions.size() * texels);
-    sums.resize(texels);
+    std::vector<float> sums(texels);
     parallelFor(context, texels, 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t texel = begin; texel < end; ++texel) {
             const glm::vec3 n = kernels::octTexelDirection(int(texel) % size, int(texel) / size, size);
@@ -38,6 +38,7 @@ void fillWeights(const Context& context, int size, std::span<const glm::vec3> di
             for (std::size_t ray = 0; ray < directions.size(); ++ray) out[ray * texels + texel] *= scale;
         }
     });
+    return sums;
 }
 
 // Ray data of one block as the rows of the two products' left sides, made safe.
@@ -151,10 +152,10 @@ FieldStorage::FieldStorage(const FieldLayout& layout)
 
 void makeBlendWeights(const Context& context, const FieldDesc& desc, std::span<const glm::vec3> directions,
                       BlendWeights& weights) {
-    fillWeights(context, desc.irradianceTexels, directions, weights.irradiance, weights.evidence,
+    fillWeights(context, desc.irradianceTexels, directions, weights.irradiance,
                 [](glm::vec3 n) { return [n](glm::vec3 w) { return kernels::irradianceWeight(n, w); }; });
     const float exponent = desc.visibilityExponent;
-    fillWeights(context, desc.visibilityTexels, directions, weights.visibility, weights.evidence, [&](glm::vec3 n) {
+    weights.evidence = fillWeights(context, desc.visibilityTexels, directions, weights.visibility, [&](glm::vec3 n) {
         float nearest = 0;
         for (const glm::vec3& w : directions) nearest = std::max(nearest, glm::dot(n, w));
         const float least = kernels::leastVisibilityCosine(nearest, exponent);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "field/layout.h"
 #include "kernels/random.h"
 #include "kernels/sampling.h"
 
@@ -97,7 +98,7 @@ Result<Walls> findWalls(const Tracer& tracer) {
 AxisPlacement fitToWalls(const std::vector<WallPoint>& walls, std::size_t seen, AxisPlacement placed, int count,
                          float lower, float upper, float marginCells) {
     if (walls.empty() || float(walls.size()) < kLeastShare * float(seen)) return placed;
-    const float cells = float(count - 1), cellsWithin = cells - 2 * marginCells;
+    const float cells = float(count - 1), cellsWithin = cells - 2 * std::max(marginCells, kTooNear);
     const double before = squaredError(walls, placed);
     AxisPlacement best = placed;
     double least = before;
@@ -105,6 +106,7 @@ AxisPlacement fitToWalls(const std::vector<WallPoint>& walls, std::size_t seen, 
         const float share = float(i) / float(kStretches - 1);
         const float spacing = placed.spacing * (kLeastStretch + (kMostStretch - kLeastStretch) * share);
         // What can be moved while the margin holds; half a cell to both sides brings every phase.
+        if (spacing < kSmallestSpacing) continue;
         const float room = cellsWithin * spacing - (upper - lower);
         if (room < 0) continue;
         const float reach = 0.5f * std::min(room, spacing);

@@ -90,6 +90,7 @@ int cameraOf(Import& import, const std::string& user, const tinygltf::Node& n) {
     if (slot < 0) return -1;
     std::vector<Camera>& cameras = import.scene().cameras;
     if (import.placedCameras[model]) {
+        import.geometry.charge(sizeof(Camera) + cameras[std::size_t(slot)].name.size() + n.name.size());
         Camera again = cameras[std::size_t(slot)];
         if (!n.name.empty()) again.name = n.name;
         cameras.push_back(std::move(again));

@@ -1,5 +1,8 @@
 #include <png.h>
 
+#include <algorithm>
+#include <climits>
+
 #include "io/image_codec.h"
 #include "io/refused.h"
 #include "kernels/tone_map.h"
@@ -22,6 +25,10 @@ std::vector<std::uint8_t> codesOf(const HdrImage& image, const ToneMap& toneMap)
 }  // namespace
 
 std::vector<std::uint8_t> encodePng(const HdrImage& image, const ToneMap& toneMap) {
+    constexpr int kWidest = 1000000;  // libpng's own limit
+    if (std::max(image.width, image.height) > kWidest || 3 * image.pixels.size() + std::size_t(image.height) > INT_MAX)
+        refuse(ErrorCode::invalidArgument, "a PNG of {} x {} pixels is too large; write .exr", image.width,
+               image.height);
     const std::vector<std::uint8_t> codes = codesOf(image, toneMap);
     png_image png{};
     png.version = PNG_IMAGE_VERSION;

@@ -35,7 +35,7 @@ public:
         std::uint32_t firstBlock = 0;
         std::uint32_t blocks = 0;
         float background = 0;  ///< mean radiance, cosine-weighted, from outside the boxes
-        float expected = 0;    ///< root mean square of the arriving radiance, as sampled; 0: unknown
+        float expected = 0;    ///< root mean square of the arriving radiance, as sampled; 0: nothing, or unknown
     };
 
     /// What the guide says at one point: the boxes, each as bright as it looks from there.

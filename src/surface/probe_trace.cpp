@@ -56,7 +56,8 @@ struct TaskBuffers {
     void reserve(std::size_t most) {
         if (rays.size() >= most) return;
         const auto each = [most](auto&... buffers) { (buffers.resize(most), ...); };
-        each(rays, shadowRays, hits, surfaces, light, shadowed, unshadowed, blocked, queries, irradiance, bounced);
+        // The rays last: where memory ends, the others are asked for again.
+        each(shadowRays, hits, surfaces, light, shadowed, unshadowed, blocked, queries, irradiance, bounced, rays);
     }
 };
 
@@ -65,6 +66,18 @@ struct Batch {
     std::span<const OrderedDirection> directions;
     bool fixed;
 };
+
+std::vector<Batch> makeBatches(std::span<const OrderedDirection> update, std::span<const OrderedDirection> fixed) {
+    constexpr std::size_t kMost = kRaysPerBatch / ProbeBlocks::kMostProbes;
+    std::vector<Batch> batches;
+    const auto add = [&](std::span<const OrderedDirection> all, bool isFixed) {
+        for (std::size_t begin = 0; begin < all.size(); begin += kMost)
+            batches.push_back({all.subspan(begin, std::min(kMost, all.size() - begin)), isFixed});
+    };
+    add(update, false);
+    add(fixed, true);
+    return batches;
+}
 
 // Rays of one direction side by side. Returns how many.
 std::size_t makeRays(const Batch& batch, TaskBuffers& b) {
@@ -211,21 +224,15 @@ Result<void> traceProbes(const Context& context, const GridDesc& grid, const Pro
         times.shadeNs += nanoseconds(Clock::now() - traced);
         return {};
     };
-    const auto traceBlock = [&](std::size_t block, std::size_t) -> Result<void> {
+    const std::vector<Batch> batches = makeBatches(update, fixed);
+    const auto traceTask = [&](std::size_t task, std::size_t) -> Result<void> {
         thread_local TaskBuffers b;
-        blocks.probesOf(block, b.probes);
+        blocks.probesOf(task / batches.size(), b.probes);
         b.origins.clear();
         for (const std::uint32_t probe : b.probes) b.origins.push_back(probePosition(grid, int(probe)));
-        const std::size_t most = std::max<std::size_t>(1, kRaysPerBatch / b.probes.size());
-        for (const std::span<const OrderedDirection> kind : {std::span(update), std::span(fixed)})
-            for (std::size_t begin = 0; begin < kind.size(); begin += most) {
-                const Batch batch{kind.subspan(begin, std::min(most, kind.size() - begin)),
-                                  kind.data() != update.data()};
-                if (auto done = traceBatch(batch, b); !done) return done;
-            }
-        return {};
+        return traceBatch(batches[task % batches.size()], b);
     };
-    return tryParallelFor(context, blocks.count(), 1, traceBlock);
+    return tryParallelFor(context, blocks.count() * batches.size(), 1, traceTask);
 }
 
 }  // namespace probegi

@@ -11,6 +11,7 @@ namespace probegi {
 namespace {
 
 constexpr glm::ivec3 kBlock{2, 2, 4};
+static_assert(kBlock.x * kBlock.y * kBlock.z == ProbeBlocks::kMostProbes);
 
 // Bits of x and y in turn, x lowest: a curve over the square (Morton).
 std::uint32_t interleaved(std::uint32_t x, std::uint32_t y) {

@@ -9,13 +9,15 @@
 
 namespace probegi {
 
-/// The order in which an update traces its rays. A task has the probes of a small box of the grid, and rays of one
-/// direction lie side by side in it: they start near each other, meet the same nodes, triangles, texels and probes, and
-/// find them in the caches. Rays of one probe have nothing in common but their origin.
+/// The order in which an update traces its rays. A task has the probes of a small box of the grid and some directions,
+/// and rays of one direction lie side by side in it: they start near each other, meet the same nodes, triangles, texels
+/// and probes, and find them in the caches. Rays of one probe have nothing in common but their origin.
 
 /// Boxes of up to 16 neighbouring probes that cover a grid.
 class ProbeBlocks {
 public:
+    static constexpr int kMostProbes = 16;
+
     explicit ProbeBlocks(const GridDesc& grid);
 
     std::size_t count() const noexcept;
