@@ -128,6 +128,11 @@ Result<ConvergeResult> Field::converge(const Tracer& tracer, const Lighting& lig
     Impl& m = *m_impl;
     Progress progress(m.context, "converging probes", maxFrames);
     Convergence convergence(m.books.desc(), tolerance, maxFrames);
+    const struct Averaging {
+        FrameBooks& books;
+        explicit Averaging(FrameBooks& b) : books(b) { books.setAveraging(true); }
+        ~Averaging() { books.setAveraging(false); }
+    } averaging(m.books);
     while (convergence.updates() < maxFrames && !convergence.converged()) {
         const auto times = m.backend->update(m.books.comingAverage(convergence.kept()), tracer, lighting);
         if (!times) return times.error();

@@ -29,7 +29,7 @@ FrameBooks::FrameBooks(const FieldDesc& desc) : m_desc(desc), m_directions(std::
 }
 
 void FrameBooks::turnRays() {
-    const bool shifted = m_desc.rules == FieldRules::measured;
+    const bool shifted = m_desc.rules == FieldRules::measured && !m_averaging;
     const std::uint32_t count = std::uint32_t(m_directions.size()), frame = std::uint32_t(m_frame);
     const glm::mat3 rotation = kernels::frameRotation(seedOf(m_desc), shifted ? 0u : frame);
     const glm::vec2 shift = shifted ? kernels::frameShift(seedOf(m_desc), frame, count) : glm::vec2(0.5f, 0.0f);
@@ -75,6 +75,11 @@ UpdateFrame FrameBooks::comingAverage(FrameHysteresis kept) const noexcept {
     frame.windows = false;
     frame.fixedDirections = {};
     return frame;
+}
+
+void FrameBooks::setAveraging(bool averaging) {
+    m_averaging = averaging;
+    turnRays();
 }
 
 void FrameBooks::advance(bool turn) {

@@ -46,6 +46,9 @@ public:
     UpdateFrame comingUpdateWithoutFixedRays() const noexcept;
     /// The coming update as part of an average in linear space, of whose old values `kept` survive.
     UpdateFrame comingAverage(FrameHysteresis kept) const noexcept;
+    /// Whether the coming updates are part of an average. Their rays are turned, not shifted: an average follows
+    /// bounces with one and the same set, which is best as it was published.
+    void setAveraging(bool averaging);
     /// Ends the frame: after the update. Without `turn`, the coming update has the same rays again.
     void advance(bool turn = true);
 
@@ -57,6 +60,7 @@ private:
     HysteresisSchedule m_events;
     int m_frame = 0;
     int m_turns = 0;  // of the rays
+    bool m_averaging = false;
 };
 
 }  // namespace probegi

@@ -36,6 +36,21 @@ TEST(FrameBooks, thePapersRaysAreTheFibonacciSetTurned) {
     }
 }
 
+TEST(FrameBooks, anAverageHasThePapersRays) {
+    FrameBooks books(smallDesc()), paper(smallDesc(FieldRules::paper));
+    const glm::vec3 shifted = books.rayDirections()[3];
+    books.setAveraging(true);
+    EXPECT_EQ(books.rayDirections()[3], paper.rayDirections()[3]);
+    books.advance(), paper.advance();
+    EXPECT_EQ(books.rayDirections()[3], paper.rayDirections()[3]);
+    books.advance(false);
+    EXPECT_EQ(books.rayDirections()[3], paper.rayDirections()[3]) << "the same rays again";
+    FrameBooks again(smallDesc());
+    again.setAveraging(true);
+    again.setAveraging(false);
+    EXPECT_EQ(again.rayDirections()[3], shifted);
+}
+
 // Each ray stays in its own band about one axis, which keeps areas: after many updates every height was seen as often.
 TEST(FrameBooks, raysAreShiftedEvenlyOverTheirBands) {
     FieldDesc desc = smallDesc();
