@@ -105,8 +105,8 @@ AxisPlacement fitToWalls(const std::vector<WallPoint>& walls, std::size_t seen, 
     for (int i = 0; i < kStretches; ++i) {
         const float share = float(i) / float(kStretches - 1);
         const float spacing = placed.spacing * (kLeastStretch + (kMostStretch - kLeastStretch) * share);
-        // What can be moved while the margin holds; half a cell to both sides brings every phase.
         if (spacing < kSmallestSpacing) continue;
+        // What can be moved while the margin holds; half a cell to both sides brings every phase.
         const float room = cellsWithin * spacing - (upper - lower);
         if (room < 0) continue;
         const float reach = 0.5f * std::min(room, spacing);
