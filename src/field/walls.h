@@ -30,7 +30,7 @@ struct AxisPlacement {
     float spacing;  ///< metres
 };
 
-/// Moves the probes of an axis, by less than a cell, and draws them apart or together by a few per cent, so that the
+/// Moves the probes of an axis, by up to half a cell, and draws them apart or together by a few per cent, so that the
 /// first probe in front of the walls stands where it serves them best. Keeps at least marginCells beyond `lower` and
 /// `upper`; returns `placed` as it is where there are few walls or little is to be gained.
 AxisPlacement fitToWalls(const std::vector<WallPoint>& walls, std::size_t seen, AxisPlacement placed, int count,
