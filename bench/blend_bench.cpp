@@ -4,8 +4,8 @@
 #include <glm/common.hpp>
 
 #include "cpu/matrix_product.h"
-#include "kernels/octahedral_texel.h"
-#include "kernels/probe_blend.h"
+#include "kernels/blend/probe_blend.h"
+#include "kernels/probe/octahedral_texel.h"
 #include "room_field.h"
 
 namespace probegi::bench {

@@ -4,11 +4,11 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "kernels/irradiance_encoding.h"
-#include "kernels/octahedral_texel.h"
-#include "kernels/probe_blend.h"
-#include "kernels/ray_set.h"
-#include "kernels/storage.h"
+#include "kernels/blend/probe_blend.h"
+#include "kernels/probe/irradiance_encoding.h"
+#include "kernels/probe/octahedral_texel.h"
+#include "kernels/probe/storage.h"
+#include "kernels/trace/ray_set.h"
 
 namespace probegi::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "kernels/ray_set.h"
+#include "kernels/trace/ray_set.h"
 
 namespace probegi::bench {
 

@@ -4,12 +4,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "kernels/irradiance_decoding.h"
-#include "kernels/octahedral.h"
-#include "kernels/probe_cage.h"
-#include "kernels/probe_neighbours.h"
-#include "kernels/probe_texel.h"
-#include "kernels/surface_gradient.h"
+#include "kernels/lookup/probe_neighbours.h"
+#include "kernels/lookup/surface_gradient.h"
+#include "kernels/probe/irradiance_decoding.h"
+#include "kernels/probe/octahedral.h"
+#include "kernels/probe/probe_texel.h"
+#include "kernels/volume/probe_cage.h"
 
 namespace probegi::bench {
 

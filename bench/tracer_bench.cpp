@@ -1,7 +1,7 @@
 // What a ray costs besides its traversal, on the built-in atrium with the rays of a probe volume.
 #include <benchmark/benchmark.h>
 
-#include "kernels/ray_set.h"
+#include "kernels/trace/ray_set.h"
 #include "probegi/builtin_scenes.h"
 #include "probegi/field.h"
 #include "probegi/tracer.h"

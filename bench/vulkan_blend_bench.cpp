@@ -3,8 +3,8 @@
 #include <benchmark/benchmark.h>
 
 #include "bench_shaders.h"
-#include "kernels/gpu_passes.h"
-#include "vulkan/errors.h"
+#include "kernels/abi/gpu_passes.h"
+#include "vulkan/device/errors.h"
 #include "vulkan_room.h"
 
 namespace probegi::bench {

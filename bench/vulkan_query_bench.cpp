@@ -5,9 +5,9 @@
 #include <glm/common.hpp>
 
 #include "bench_shaders.h"
-#include "kernels/gpu_passes.h"
-#include "vulkan/errors.h"
-#include "vulkan/staging.h"
+#include "kernels/abi/gpu_passes.h"
+#include "vulkan/device/errors.h"
+#include "vulkan/device/staging.h"
 #include "vulkan_room.h"
 
 namespace probegi::bench {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "vulkan/errors.h"
-#include "vulkan/staging.h"
+#include "vulkan/device/errors.h"
+#include "vulkan/device/staging.h"
 
 namespace probegi::bench {
 

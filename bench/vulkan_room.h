@@ -5,8 +5,8 @@
 #include <string>
 
 #include "room_field.h"
-#include "vulkan/probe_volume_impl.h"
-#include "vulkan/volume_mirror.h"
+#include "vulkan/field/probe_volume_impl.h"
+#include "vulkan/field/volume_mirror.h"
 
 namespace probegi::bench {
 

@@ -21,7 +21,7 @@ function(probegi_shader_variant shader name)
 endfunction()
 
 # probegi_shaders(TARGET FOLDER) compiles every FOLDER/NAME.comp (GLSL 4.60, no #version line; quoted includes are looked
-# for beside it and in src/) and adds the definition of shaderCode() (src/vulkan/shader_code.h) to the target:
+# for beside it and in src/) and adds the definition of shaderCode() (src/vulkan/device/shader_code.h) to the target:
 # shaderCode("NAME"). A shader with a line
 #     // variants: bvh=TRACER_BVH ray_query=TRACER_RAY_QUERY,ANOTHER_MACRO=2
 # is compiled once for each of them, with these macros: shaderCode("NAME_bvh").
@@ -64,7 +64,8 @@ function(probegi_shader_include input name)
     cmake_path(GET name PARENT_PATH folder)
     cmake_path(GET input PARENT_PATH beside)
     cmake_path(GET input STEM stem)
-    file(GLOB included CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/kernels/*.h ${beside}/*.glsl)
+    file(GLOB included CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/kernels/*.h
+        ${PROJECT_SOURCE_DIR}/src/kernels/*/*.h ${beside}/*.glsl)
     set(collect ${CMAKE_COMMAND} -DINPUT=${input} -DOUTPUT=${output} -DROOT=${PROJECT_SOURCE_DIR}/src
         -P ${PROJECT_SOURCE_DIR}/cmake/amalgamate.cmake)
     if(NOT EXISTS ${output})

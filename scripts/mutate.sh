@@ -20,13 +20,13 @@ Works in build/mutate; nothing else of the project is touched. The first run bui
 continue from there. Ctrl-C prints what is known so far.
 
 Example: scripts/mutate.sh --seed 7 --count 300
-Example: scripts/mutate.sh --only src/kernels/probe_query.h --count 1000     (all of its mutants)
+Example: scripts/mutate.sh --only src/kernels/lookup/probe_query.h --count 1000     (all of its mutants)
 TEXT
 }
 
 # Programs of unit tests that take seconds, cheapest first. Left out: cli, io, report, vulkan and the like, which know
 # nothing of these folders; analytic, backend, reference and render, which take minutes.
-programs=(kernels field surface bvh cpu tracer)
+programs=(kernels field geometry bvh cpu tracer)
 # What a program need not run: what takes longer than all the rest, or needs scenes from files.
 declare -A filter=(
     [bvh]='-EmbreeAgreement.*'
@@ -34,7 +34,7 @@ declare -A filter=(
     [tracer]='-*Agreement*:*Scenes*:*Watertight*:*ManyAtOnce*:*TheBuildDoesNotDependOnThreads*'
 )
 # No formulas: what makes two languages of one text, and records that only shaders read.
-left_out='src/kernels/(language|gpu_passes)\.h$'
+left_out='src/kernels/(language|abi/gpu_passes)\.h$'
 goal=90  # per cent
 
 die() {

@@ -2,7 +2,8 @@
 
 namespace probegi::tool {
 
-// The values behind a picture come as halfFloatPlanes() packs them; the tone map is that of src/kernels/tone_map.h.
+// The values behind a picture come as halfFloatPlanes() packs them; the tone map is that of
+// src/kernels/screen/tone_map.h.
 const std::string_view kReportScript = R"js(
 "use strict";
 for (const slider of document.querySelectorAll(".slider")) {

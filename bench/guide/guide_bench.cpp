@@ -13,13 +13,13 @@
 #include <string>
 #include <vector>
 
+#include "geometry/lighting.h"
 #include "probegi/builtin_scenes.h"
 #include "probegi/field.h"
 #include "probegi/io.h"
 #include "probegi/reference.h"
 #include "reference/path_batch.h"
 #include "reference/pinhole_camera.h"
-#include "surface/lighting.h"
 
 namespace {
 

@@ -4,9 +4,9 @@
 #include "vulkan/shaders/ray_data.glsl"
 #include "vulkan/shaders/volume.glsl"
 
-#include "kernels/gpu_passes.h"
-#include "kernels/octahedral_texel.h"
-#include "kernels/probe_texel.h"
+#include "kernels/abi/gpu_passes.h"
+#include "kernels/probe/octahedral_texel.h"
+#include "kernels/probe/probe_texel.h"
 
 layout(push_constant, scalar) uniform Push {
     BlendPush push;

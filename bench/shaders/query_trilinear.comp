@@ -2,7 +2,7 @@
 // Light leaks through every wall.
 #include "vulkan/shaders/volume.glsl"
 
-#include "kernels/gpu_passes.h"
+#include "kernels/abi/gpu_passes.h"
 
 #include "field_query.glsl"
 

@@ -2,7 +2,7 @@
 // no shares of backfaces, no count, no wider search.
 #include "vulkan/shaders/volume.glsl"
 
-#include "kernels/gpu_passes.h"
+#include "kernels/abi/gpu_passes.h"
 
 #include "field_query.glsl"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bvh/collapse.h"
-#include "kernels/bvh_scene.h"
+#include "kernels/trace/bvh_scene.h"
 
 namespace probegi {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "kernels/bvh_scene.h"
+#include "kernels/trace/bvh_scene.h"
 #include "probegi/context.h"
 #include "probegi/scene.h"
 
@@ -15,7 +15,7 @@
 // the traversal keeps one stack entry a level. Embree's builder API makes a binary tree by the surface area heuristic,
 // one triangle a leaf; a dynamic program then chooses the wide nodes and leaves of least expected cost (collapse.h).
 // There are no spatial splits: each triangle stands in one leaf, so moved triangles can be refitted. Text that both
-// languages share: kernels/bvh_node.h, bvh_scene.h, triangle_hit.h, bvh_traverse.h.
+// languages share: kernels/trace/bvh_node.h, bvh_scene.h, triangle_hit.h, bvh_traverse.h.
 namespace probegi {
 
 /// Indexed triangles somewhere in memory, read in place. Entries lie `stride` bytes apart, in any struct.

@@ -4,7 +4,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "kernels/colour.h"
+#include "kernels/screen/colour.h"
 
 namespace probegi::colour {
 

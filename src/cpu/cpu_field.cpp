@@ -6,9 +6,9 @@
 
 #include "core/parallel.h"
 #include "cpu/solid_probes.h"
-#include "kernels/irradiance_decoding.h"
-#include "kernels/storage.h"
-#include "surface/probe_emitters.h"
+#include "field/probe_emitters.h"
+#include "kernels/probe/irradiance_decoding.h"
+#include "kernels/probe/storage.h"
 
 namespace probegi {
 

@@ -1,7 +1,7 @@
 #include "cpu/embree_filter.h"
 
 #include "cpu/embree_scene.h"
-#include "surface/surface_shader.h"
+#include "geometry/surface_shader.h"
 
 namespace probegi {
 

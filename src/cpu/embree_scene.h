@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cpu/embree_handles.h"
+#include "geometry/scene_geometry.h"
 #include "probegi/tracer.h"
-#include "surface/scene_geometry.h"
 
 namespace probegi {
 

@@ -5,9 +5,9 @@
 
 #include "cpu/embree_packets.h"
 #include "cpu/embree_scene.h"
+#include "geometry/emitters.h"
+#include "geometry/surface_shader.h"
 #include "probegi/tracer.h"
-#include "surface/emitters.h"
-#include "surface/surface_shader.h"
 
 namespace probegi {
 

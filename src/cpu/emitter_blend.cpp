@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kernels/octahedral_texel.h"
+#include "kernels/probe/octahedral_texel.h"
 
 namespace probegi {
 

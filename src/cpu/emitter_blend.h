@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cpu/matrix_product.h"
-#include "kernels/emitter_sampling.h"
+#include "kernels/light/emitter_sampling.h"
 
 namespace probegi {
 

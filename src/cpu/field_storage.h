@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "field/layout.h"
-#include "kernels/solid_probe.h"
-#include "kernels/temporal_filter.h"
+#include "kernels/blend/temporal_filter.h"
+#include "kernels/probe/solid_probe.h"
 
 namespace probegi {
 

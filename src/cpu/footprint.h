@@ -5,8 +5,8 @@
 #include <glm/common.hpp>
 
 #include "cpu/probe_query.h"
-#include "kernels/octahedral.h"
-#include "kernels/probe_texel.h"
+#include "kernels/probe/octahedral.h"
+#include "kernels/probe/probe_texel.h"
 
 namespace probegi {
 

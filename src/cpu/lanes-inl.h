@@ -11,9 +11,9 @@
 
 #include <hwy/highway.h>
 
-#include "kernels/octahedral.h"
-#include "kernels/probe_cage.h"
-#include "kernels/surface_gradient.h"
+#include "kernels/lookup/surface_gradient.h"
+#include "kernels/probe/octahedral.h"
+#include "kernels/volume/probe_cage.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace probegi::kernels::HWY_NAMESPACE {
@@ -175,10 +175,10 @@ using kernels::select;
 #undef PROBEGI_KERNELS_PROBE_CAGE_H
 #undef PROBEGI_KERNELS_PROBE_QUERY_H
 #undef PROBEGI_KERNELS_SURFACE_GRADIENT_H
-#include "kernels/octahedral.h"
-#include "kernels/probe_cage.h"
-#include "kernels/probe_query.h"
-#include "kernels/surface_gradient.h"
+#include "kernels/lookup/probe_query.h"
+#include "kernels/lookup/surface_gradient.h"
+#include "kernels/probe/octahedral.h"
+#include "kernels/volume/probe_cage.h"
 #undef KERNELS_BEGIN
 #undef KERNELS_END
 #undef KERNEL_FN

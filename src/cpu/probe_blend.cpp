@@ -7,9 +7,9 @@
 #include "core/parallel.h"
 #include "cpu/emitter_blend.h"
 #include "cpu/matrix_product.h"
-#include "kernels/octahedral_texel.h"
-#include "kernels/probe_texel.h"
-#include "kernels/temporal_filter.h"
+#include "kernels/blend/temporal_filter.h"
+#include "kernels/probe/octahedral_texel.h"
+#include "kernels/probe/probe_texel.h"
 
 namespace probegi {
 

@@ -5,7 +5,7 @@
 
 #include "cpu/field_storage.h"
 #include "field/hysteresis.h"
-#include "kernels/emitter_sampling.h"
+#include "kernels/light/emitter_sampling.h"
 
 namespace probegi {
 

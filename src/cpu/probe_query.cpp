@@ -8,11 +8,11 @@
 
 #include "cpu/footprint.h"
 #include "cpu/query_lanes.h"
-#include "kernels/irradiance_decoding.h"
-#include "kernels/octahedral_texel.h"
-#include "kernels/probe_cage.h"
-#include "kernels/probe_neighbours.h"
-#include "kernels/probe_texel.h"
+#include "kernels/lookup/probe_neighbours.h"
+#include "kernels/probe/irradiance_decoding.h"
+#include "kernels/probe/octahedral_texel.h"
+#include "kernels/probe/probe_texel.h"
+#include "kernels/volume/probe_cage.h"
 
 namespace probegi {
 
@@ -45,8 +45,8 @@ float neighbourVisibility(const FieldView& view, int probe, glm::vec3 fromProbe)
                                         distance * view.inverseMaxDistance);
 }
 
-// The answer where the probes of the cage do not know (kernels/probe_neighbours.h). Black only where all neighbours
-// stand in walls.
+// The answer where the probes of the cage do not know (kernels/lookup/probe_neighbours.h). Black only where all
+// neighbours stand in walls.
 glm::vec3 queryNeighbours(const FieldView& view, FieldQuery query) {
     const GridDesc& grid = view.desc->grid;
     const float biasScale = view.desc->selfShadowBias;

@@ -11,8 +11,8 @@
 #include <array>
 
 #include "cpu/query_lanes.h"
-#include "kernels/probe_neighbours.h"
-#include "kernels/storage.h"
+#include "kernels/lookup/probe_neighbours.h"
+#include "kernels/probe/storage.h"
 
 #include "cpu/footprint-inl.h"
 #include "cpu/lanes-inl.h"
@@ -43,7 +43,7 @@ struct alignas(64) Block {
     std::array<Ints, 4> front;        // corners of the cage in front of the surface
     std::array<Reals, 4> pair;        // weight of each with the probe beyond it
     Ints step;                        // from a probe in front to the one beyond, in probe numbers
-    std::array<Reals, 3> root, rise;  // weighted sums, for kernels/surface_gradient.h
+    std::array<Reals, 3> root, rise;  // weighted sums, for kernels/lookup/surface_gradient.h
 };
 
 // One texel's three channels (and whatever follows).
@@ -147,7 +147,7 @@ HWY_INLINE Cages weighProbes(const FieldView& view, const Guard& guard, const Re
     return {first, base, alpha, weightSum, ahead / weightSum};
 }
 
-// How light changes along the normal (kernels/surface_gradient.h).
+// How light changes along the normal (kernels/lookup/surface_gradient.h).
 struct Gradients {
     Real pairWeight;  // sum over the pairs
     Real cells;       // by which the light was read in front of the surface

@@ -3,8 +3,8 @@
 #include <glm/geometric.hpp>
 
 #include "core/parallel.h"
-#include "kernels/gpu_volume.h"
-#include "kernels/probe_cage.h"
+#include "kernels/volume/gpu_volume.h"
+#include "kernels/volume/probe_cage.h"
 
 namespace probegi {
 

@@ -4,8 +4,8 @@
 #include <glm/common.hpp>
 
 #include "core/parallel.h"
-#include "kernels/gpu_volume.h"
-#include "kernels/probe_cage.h"
+#include "kernels/volume/gpu_volume.h"
+#include "kernels/volume/probe_cage.h"
 
 namespace probegi {
 

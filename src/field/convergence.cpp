@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/bounce.h"
-#include "kernels/probe_query.h"
+#include "kernels/lookup/probe_query.h"
+#include "kernels/shade/bounce.h"
 
 namespace probegi {
 

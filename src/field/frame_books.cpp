@@ -1,7 +1,7 @@
 #include "field/frame_books.h"
 
-#include "kernels/ray_set.h"
-#include "kernels/temporal_filter.h"
+#include "kernels/blend/temporal_filter.h"
+#include "kernels/trace/ray_set.h"
 
 namespace probegi {
 

@@ -4,7 +4,7 @@
 
 #include "core/sentence.h"
 #include "field/layout.h"
-#include "kernels/ray_offset.h"
+#include "kernels/trace/ray_offset.h"
 
 namespace probegi {
 

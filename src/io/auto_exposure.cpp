@@ -3,7 +3,7 @@
 #include <numeric>
 #include <vector>
 
-#include "kernels/colour.h"
+#include "kernels/screen/colour.h"
 #include "probegi/image.h"
 
 namespace probegi {

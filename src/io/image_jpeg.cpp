@@ -7,7 +7,7 @@
 
 #include "io/image_codec.h"
 #include "io/refused.h"
-#include "kernels/colour.h"
+#include "kernels/screen/colour.h"
 
 namespace probegi::io {
 

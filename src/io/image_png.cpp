@@ -6,7 +6,7 @@
 
 #include "io/budget.h"
 #include "io/image_codec.h"
-#include "kernels/colour.h"
+#include "kernels/screen/colour.h"
 
 namespace probegi::io {
 

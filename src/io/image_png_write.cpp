@@ -5,7 +5,7 @@
 
 #include "io/image_codec.h"
 #include "io/refused.h"
-#include "kernels/tone_map.h"
+#include "kernels/screen/tone_map.h"
 
 namespace probegi::io {
 

@@ -3,8 +3,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "geometry/emitters.h"
 #include "kernels/sampling.h"
-#include "surface/emitters.h"
 
 namespace probegi {
 

@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "kernels/colour.h"
+#include "kernels/screen/colour.h"
 
 namespace probegi {
 

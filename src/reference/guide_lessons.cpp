@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 
 #include "core/parallel.h"
-#include "kernels/colour.h"
+#include "geometry/lighting.h"
 #include "kernels/sampling.h"
-#include "surface/lighting.h"
+#include "kernels/screen/colour.h"
 
 namespace probegi {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "kernels/colour.h"
+#include "geometry/lighting.h"
+#include "kernels/screen/colour.h"
 #include "reference/path_batch.h"
-#include "surface/lighting.h"
 
 namespace probegi {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "surface/lighting.h"
+#include "geometry/lighting.h"
 
 namespace probegi {
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "kernels/bsdf.h"
-#include "kernels/punctual_light.h"
+#include "kernels/light/punctual_light.h"
+#include "kernels/shade/bsdf.h"
 #include "probegi/field.h"
 #include "reference/transport.h"
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "kernels/colour.h"
-#include "kernels/ray_offset.h"
+#include "kernels/screen/colour.h"
+#include "kernels/trace/ray_offset.h"
 #include "reference/path_batch.h"
 
 namespace probegi {

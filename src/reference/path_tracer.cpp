@@ -8,12 +8,12 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/sentence.h"
+#include "geometry/lighting.h"
 #include "reference/film.h"
 #include "reference/guide_learning.h"
 #include "reference/irradiance_estimate.h"
 #include "reference/path_batch.h"
 #include "reference/pinhole_camera.h"
-#include "surface/lighting.h"
 
 namespace probegi {
 

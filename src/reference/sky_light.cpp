@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/colour.h"
 #include "kernels/sampling.h"
+#include "kernels/screen/colour.h"
 #include "scene/sky.h"
 
 namespace probegi {
@@ -68,7 +68,7 @@ glm::vec3 SkyLight::sample(glm::vec3 normal, Random& random) const noexcept {
     const int width = m_sky.image.width, height = m_sky.image.height;
     const std::size_t texel = m_table.sample(random.nextDouble());
     const int x = int(texel % std::size_t(width)), y = int(texel / std::size_t(width));
-    // Uniform over the texel's solid angle; as in kernels/sky.h, u = 1/2 is -Z and grows towards +X.
+    // Uniform over the texel's solid angle; as in kernels/light/sky.h, u = 1/2 is -Z and grows towards +X.
     const double top = rowCosine(y, height), bottom = rowCosine(y + 1, height);
     const double cosine = top + (bottom - top) * random.nextDouble();
     const double phi = ((x + random.nextDouble()) / width - 0.5) * kTau;

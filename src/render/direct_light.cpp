@@ -2,8 +2,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "kernels/bsdf.h"
-#include "surface/lighting.h"
+#include "geometry/lighting.h"
+#include "kernels/shade/bsdf.h"
 
 namespace probegi {
 

@@ -4,8 +4,8 @@
 
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "geometry/picture_desc.h"
 #include "render/tile_renderer.h"
-#include "surface/picture_desc.h"
 
 namespace probegi {
 

@@ -3,9 +3,9 @@
 #include <chrono>
 #include <numbers>
 
+#include "geometry/lighting.h"
 #include "render/direct_light.h"
 #include "scene/sky.h"
-#include "surface/lighting.h"
 
 namespace probegi {
 

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <cstdint>
 
-#include "kernels/pinhole.h"
+#include "kernels/screen/pinhole.h"
 #include "probegi/render.h"
 #include "render/tile_samples.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/sky.h"
+#include "kernels/light/sky.h"
 #include "probegi/scene.h"
 
 namespace probegi {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "field/layout.h"
-#include "kernels/octahedral_texel.h"
+#include "kernels/probe/octahedral_texel.h"
 #include "kernels/random.h"
 
 namespace probegi::test {

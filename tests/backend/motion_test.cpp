@@ -1,4 +1,4 @@
-// The temporal filter (kernels/temporal_filter.h): light in motion is followed, light that stands still is still.
+// The temporal filter (kernels/blend/temporal_filter.h): light in motion is followed, light that stands still is still.
 #include "backend/every_backend.h"
 
 #include <algorithm>

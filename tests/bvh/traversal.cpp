@@ -26,7 +26,7 @@ bool bvhAlphaPasses(int instance, int primitive, vec2 barycentric) {
 }  // namespace
 }  // namespace probegi::kernels
 
-#include "kernels/bvh_traverse.h"
+#include "kernels/trace/bvh_traverse.h"
 
 namespace probegi::test {
 

@@ -8,7 +8,7 @@
 
 namespace probegi::test {
 
-/// What kernels/bvh_traverse.h reads, and how often it did.
+/// What kernels/trace/bvh_traverse.h reads, and how often it did.
 struct TracedWorld {
     BvhArrays arrays;
     std::vector<kernels::BvhInstance> instances;

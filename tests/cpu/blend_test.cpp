@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "cpu/probe_query.h"
-#include "kernels/octahedral_texel.h"
-#include "kernels/probe_blend.h"
-#include "kernels/ray_set.h"
-#include "kernels/storage.h"
+#include "kernels/blend/probe_blend.h"
+#include "kernels/probe/octahedral_texel.h"
+#include "kernels/probe/storage.h"
+#include "kernels/trace/ray_set.h"
 
 namespace probegi {
 namespace {

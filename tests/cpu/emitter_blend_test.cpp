@@ -5,10 +5,10 @@
 #include <glm/geometric.hpp>
 
 #include "cpu/probe_blend.h"
-#include "kernels/octahedral_texel.h"
+#include "kernels/probe/octahedral_texel.h"
+#include "kernels/probe/storage.h"
 #include "kernels/random.h"
-#include "kernels/ray_set.h"
-#include "kernels/storage.h"
+#include "kernels/trace/ray_set.h"
 
 namespace probegi {
 namespace {

@@ -7,7 +7,7 @@
 #include <set>
 #include <thread>
 
-#include "kernels/octahedral_texel.h"
+#include "kernels/probe/octahedral_texel.h"
 #include "probegi/probegi.h"
 
 namespace probegi::test {

@@ -5,9 +5,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "kernels/octahedral_texel.h"
+#include "kernels/probe/octahedral_texel.h"
+#include "kernels/probe/storage.h"
 #include "kernels/random.h"
-#include "kernels/storage.h"
 
 namespace probegi {
 namespace {

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "cpu/probe_query.h"
-#include "kernels/storage.h"
+#include "kernels/probe/storage.h"
 #include "scalar_query.h"
 
 namespace probegi {

@@ -8,7 +8,7 @@
 #include <glm/matrix.hpp>
 #include <vector>
 
-#include "kernels/ray_set.h"
+#include "kernels/trace/ray_set.h"
 
 namespace probegi {
 namespace {

@@ -1,4 +1,4 @@
-#include "kernels/bounce.h"
+#include "kernels/shade/bounce.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kernels/bsdf.h"
+#include "kernels/shade/bsdf.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kernels/bvh_node.h"
+#include "kernels/trace/bvh_node.h"
 
 #include <gtest/gtest.h>
 

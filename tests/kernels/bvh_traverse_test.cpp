@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "kernels/bvh_scene.h"
+#include "kernels/trace/bvh_scene.h"
 
 namespace probegi::kernels {
 namespace {
@@ -32,7 +32,7 @@ bool bvhAlphaPasses(int, int, vec2) {
 }  // namespace
 }  // namespace probegi::kernels
 
-#include "kernels/bvh_traverse.h"
+#include "kernels/trace/bvh_traverse.h"
 
 namespace probegi::kernels {
 namespace {

@@ -1,4 +1,4 @@
-#include "kernels/colour.h"
+#include "kernels/screen/colour.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kernels/emitter_sampling.h"
+#include "kernels/light/emitter_sampling.h"
 
 #include <gtest/gtest.h>
 

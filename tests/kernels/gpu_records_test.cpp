@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "kernels/gpu_passes.h"
-#include "kernels/gpu_scene.h"
-#include "kernels/gpu_volume.h"
+#include "kernels/abi/gpu_passes.h"
+#include "kernels/abi/gpu_scene.h"
+#include "kernels/volume/gpu_volume.h"
 
 namespace probegi::kernels {
 namespace {

@@ -3,9 +3,9 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "kernels/octahedral.h"
-#include "kernels/octahedral_texel.h"
-#include "kernels/ray_set.h"
+#include "kernels/probe/octahedral.h"
+#include "kernels/probe/octahedral_texel.h"
+#include "kernels/trace/ray_set.h"
 
 namespace probegi::kernels {
 namespace {

@@ -1,4 +1,4 @@
-#include "kernels/pinhole.h"
+#include "kernels/screen/pinhole.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "kernels/probe_blend.h"
+#include "kernels/blend/probe_blend.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "kernels/ray_set.h"
+#include "kernels/trace/ray_set.h"
 
 namespace probegi::kernels {
 namespace {

@@ -1,8 +1,8 @@
-#include "kernels/probe_cage.h"
+#include "kernels/volume/probe_cage.h"
 
 #include <gtest/gtest.h>
 
-#include "kernels/probe_neighbours.h"
+#include "kernels/lookup/probe_neighbours.h"
 
 namespace probegi::kernels {
 namespace {

@@ -1,4 +1,4 @@
-#include "kernels/probe_texel.h"
+#include "kernels/probe/probe_texel.h"
 
 #include <gtest/gtest.h>
 

@@ -3,12 +3,12 @@
 #include <array>
 #include <set>
 
-#include "kernels/probe_blend.h"
-#include "kernels/probe_cage.h"
-#include "kernels/probe_neighbours.h"
-#include "kernels/probe_query.h"
+#include "kernels/blend/probe_blend.h"
+#include "kernels/lookup/probe_neighbours.h"
+#include "kernels/lookup/probe_query.h"
+#include "kernels/lookup/surface_gradient.h"
 #include "kernels/random.h"
-#include "kernels/surface_gradient.h"
+#include "kernels/volume/probe_cage.h"
 
 namespace probegi::kernels {
 namespace {

@@ -1,4 +1,4 @@
-#include "kernels/punctual_light.h"
+#include "kernels/light/punctual_light.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kernels/ray_offset.h"
+#include "kernels/trace/ray_offset.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kernels/ray_set.h"
+#include "kernels/trace/ray_set.h"
 
 #include <gtest/gtest.h>
 

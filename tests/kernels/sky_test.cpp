@@ -1,4 +1,4 @@
-#include "kernels/sky.h"
+#include "kernels/light/sky.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kernels/solid_probe.h"
+#include "kernels/probe/solid_probe.h"
 
 #include <gtest/gtest.h>
 

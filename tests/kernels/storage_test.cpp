@@ -2,9 +2,9 @@
 
 #include <glm/gtc/packing.hpp>
 
-#include "kernels/irradiance_decoding.h"
-#include "kernels/irradiance_encoding.h"
-#include "kernels/storage.h"
+#include "kernels/probe/irradiance_decoding.h"
+#include "kernels/probe/irradiance_encoding.h"
+#include "kernels/probe/storage.h"
 
 namespace probegi::kernels {
 namespace {

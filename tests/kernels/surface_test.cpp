@@ -1,4 +1,4 @@
-#include "kernels/surface.h"
+#include "kernels/shade/surface.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kernels/temporal_filter.h"
+#include "kernels/blend/temporal_filter.h"
 
 #include <gtest/gtest.h>
 

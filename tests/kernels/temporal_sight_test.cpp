@@ -1,10 +1,10 @@
-// What fixed rays tell (kernels/temporal_filter.h): lobes, their sums, the lag that follows from two of them.
+// What fixed rays tell (kernels/blend/temporal_filter.h): lobes, their sums, the lag that follows from two of them.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
-#include "kernels/temporal_filter.h"
+#include "kernels/blend/temporal_filter.h"
 
 namespace probegi::kernels {
 namespace {

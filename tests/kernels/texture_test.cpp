@@ -1,4 +1,4 @@
-#include "kernels/texture.h"
+#include "kernels/shade/texture.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kernels/tone_map.h"
+#include "kernels/screen/tone_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kernels/triangle_hit.h"
+#include "kernels/trace/triangle_hit.h"
 
 #include <gtest/gtest.h>
 

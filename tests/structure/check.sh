@@ -23,14 +23,14 @@ declare -A below=(
     [core]="kernels"
     [scene]="core kernels"
     [io]="scene core kernels"
-    [field]="scene core kernels"
-    [surface]="scene core kernels"
+    [geometry]="scene core kernels"
     [bvh]="scene core kernels"
+    [field]="geometry scene core kernels"
     [compare]="io scene core kernels"
-    [cpu]="surface field scene core kernels"
-    [vulkan]="bvh surface field scene core kernels"
-    [reference]="cpu surface field scene core kernels"
-    [render]="cpu surface field scene core kernels"
+    [cpu]="field geometry scene core kernels"
+    [vulkan]="bvh field geometry scene core kernels"
+    [reference]="field geometry scene core kernels"
+    [render]="field geometry scene core kernels"
 )
 
 # path:line of each quoted include whose path begins with a folder name, as "file folder".
@@ -83,7 +83,7 @@ check_public_headers() {
 # Agreement of backends cannot see a wrong formula that they share: each kernel has a test of its own.
 check_kernel_tests() {
     local header
-    for header in src/kernels/*.h; do
+    for header in src/kernels/**/*.h; do
         [[ $header != src/kernels/language.h ]] || continue
         grep -q "^#include \"${header#src/}\"" /dev/null tests/kernels/*_test.cpp ||
             complain "$header has no direct test: no file of tests/kernels includes it"

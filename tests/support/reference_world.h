@@ -5,9 +5,9 @@
 #include <cmath>
 #include <memory>
 
+#include "geometry/lighting.h"
 #include "probegi/reference.h"
 #include "reference/transport.h"
-#include "surface/lighting.h"
 
 namespace probegi::test {
 

@@ -2,10 +2,10 @@
 #include <limits>
 #include <random>
 
-#include "kernels/gpu_passes.h"
+#include "kernels/abi/gpu_passes.h"
 #include "support/vulkan_device.h"
-#include "vulkan/exchange.h"
-#include "vulkan/gpu_scene_impl.h"
+#include "vulkan/device/exchange.h"
+#include "vulkan/scene/gpu_scene_impl.h"
 #include "vulkan/small_world.h"
 
 namespace probegi::test {

@@ -1,7 +1,7 @@
 // Deferred shading and tone map in an engine's own command buffers: the layers that the CPU's picture has.
 #include <cmath>
 
-#include "kernels/pinhole.h"
+#include "kernels/screen/pinhole.h"
 #include "vulkan/engine.h"
 #include "vulkan/hooks.h"
 #include "vulkan/log_book.h"

@@ -1,5 +1,5 @@
 // What packScene stores, and where.
-#include "vulkan/scene_data.h"
+#include "vulkan/scene/scene_data.h"
 
 #include "tracer/tracer_scene.h"
 

@@ -4,11 +4,11 @@
 #include <fstream>
 #include <iterator>
 
+#include "geometry/lighting.h"
+#include "geometry/surface_shader.h"
 #include "scene/sky.h"
-#include "surface/lighting.h"
-#include "surface/surface_shader.h"
 #include "tracer/tracer_scene.h"
-#include "vulkan/scene_data.h"
+#include "vulkan/scene/scene_data.h"
 #include "vulkan_scene/address_runner.h"
 #include "vulkan_scene/shaders/question.h"
 

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
-#include "kernels/colour.h"
+#include "kernels/screen/colour.h"
 #include "scene/builtin/noise.h"
 
 namespace probegi::builtin {

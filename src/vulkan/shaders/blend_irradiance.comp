@@ -10,9 +10,9 @@
 #include "sides.glsl"
 #include "volume.glsl"
 
-#include "kernels/gpu_passes.h"
-#include "kernels/octahedral_texel.h"
-#include "kernels/probe_texel.h"
+#include "kernels/abi/gpu_passes.h"
+#include "kernels/probe/octahedral_texel.h"
+#include "kernels/probe/probe_texel.h"
 
 layout(constant_id = 0) const uint kExcludeBackfaces = 0;  // BackfaceRule::excluded
 layout(push_constant, scalar) uniform Push {

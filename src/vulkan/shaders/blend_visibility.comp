@@ -5,10 +5,10 @@
 #include "ray_data.glsl"
 #include "volume.glsl"
 
-#include "kernels/gpu_passes.h"
-#include "kernels/octahedral_texel.h"
-#include "kernels/probe_blend.h"
-#include "kernels/probe_texel.h"
+#include "kernels/abi/gpu_passes.h"
+#include "kernels/probe/octahedral_texel.h"
+#include "kernels/blend/probe_blend.h"
+#include "kernels/probe/probe_texel.h"
 
 layout(push_constant, scalar) uniform Push {
     BlendPush push;

@@ -3,10 +3,10 @@
 // nine rays in ten count for less than a part in 10^8: they are lists.
 #include "common.glsl"
 
-#include "kernels/gpu_passes.h"
-#include "kernels/octahedral_texel.h"
-#include "kernels/probe_blend.h"
-#include "kernels/probe_query.h"
+#include "kernels/abi/gpu_passes.h"
+#include "kernels/probe/octahedral_texel.h"
+#include "kernels/blend/probe_blend.h"
+#include "kernels/lookup/probe_query.h"
 
 layout(push_constant, scalar) uniform Push {
     WeightsPush push;

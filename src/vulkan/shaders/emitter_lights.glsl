@@ -4,7 +4,7 @@
 
 #include "common.glsl"
 
-#include "kernels/emitter_sampling.h"
+#include "kernels/light/emitter_sampling.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer EmitterLights {
     EmitterLight at[];

@@ -1,10 +1,10 @@
-// The temporal filter's buffers (kernels/temporal_filter.h), for the passes around a blend and the blends themselves.
+// The temporal filter's buffers (kernels/blend/temporal_filter.h), for the passes around a blend and the blends themselves.
 #ifndef PROBEGI_FILTER_GLSL
 #define PROBEGI_FILTER_GLSL
 
 #include "common.glsl"
 
-#include "kernels/gpu_passes.h"
+#include "kernels/abi/gpu_passes.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ProbeSteps {
     GpuProbeStep at[];

@@ -1,9 +1,9 @@
 // After a blend: from which probes a free line leads into the open, so that the coming update knows which of those that
-// see backs stand in solid matter (kernels/solid_probe.h). One step from probe to probe an update.
+// see backs stand in solid matter (kernels/probe/solid_probe.h). One step from probe to probe an update.
 #include "sides.glsl"
 #include "volume.glsl"
 
-#include "kernels/gpu_passes.h"
+#include "kernels/abi/gpu_passes.h"
 
 layout(push_constant, scalar) uniform Push {
     SolidPush push;

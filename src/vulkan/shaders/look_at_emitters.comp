@@ -1,4 +1,4 @@
-// What the probes' looks at emitters bring home, the steps of src/surface/probe_emitters.cpp: choose a point, trace
+// What the probes' looks at emitters bring home, the steps of src/field/probe_emitters.cpp: choose a point, trace
 // towards it, see what it sends. Neighbouring threads take the same look of neighbouring probes.
 // variants: bvh=TRACER_BVH ray_query=TRACER_RAY_QUERY
 #include "emitter_lights.glsl"
@@ -6,7 +6,7 @@
 #include "scene_set.glsl"
 #include "volume.glsl"
 
-#include "kernels/probe_blend.h"
+#include "kernels/blend/probe_blend.h"
 
 layout(push_constant, scalar) uniform Push {
     TracePush push;

@@ -5,7 +5,7 @@
 #include "common.glsl"
 #include "types.glsl"
 
-#include "kernels/gpu_passes.h"
+#include "kernels/abi/gpu_passes.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Samples {
     GpuSample at[];

@@ -3,7 +3,7 @@
 #include "direct_light.glsl"
 #include "picture.glsl"
 
-#include "kernels/bsdf.h"
+#include "kernels/shade/bsdf.h"
 
 layout(push_constant, scalar) uniform Push {
     PicturePush push;

@@ -1,7 +1,7 @@
 // Irradiance at points: probegi::FieldQuery in, vec3 out.
 #include "volume.glsl"
 
-#include "kernels/gpu_passes.h"
+#include "kernels/abi/gpu_passes.h"
 
 layout(push_constant, scalar) uniform Push {
     QueryPush push;

@@ -15,12 +15,12 @@
 
 #extension GL_EXT_scalar_block_layout : require
 
-#include "kernels/gpu_volume.h"
-#include "kernels/irradiance_decoding.h"
-#include "kernels/octahedral.h"
-#include "kernels/probe_cage.h"
-#include "kernels/probe_neighbours.h"
-#include "kernels/surface_gradient.h"
+#include "kernels/volume/gpu_volume.h"
+#include "kernels/probe/irradiance_decoding.h"
+#include "kernels/probe/octahedral.h"
+#include "kernels/volume/probe_cage.h"
+#include "kernels/lookup/probe_neighbours.h"
+#include "kernels/lookup/surface_gradient.h"
 
 #ifndef PROBEGI_SET
 #define PROBEGI_SET 0
@@ -111,7 +111,7 @@ vec3 probegiNeighbours(vec3 position, vec3 normal, vec3 bias, ivec3 base, vec2 t
     return weightSum > 0.0 ? sum / weightSum : vec3(0.0);
 }
 
-// Which layer of probes tells how light changes along a normal (kernels/surface_gradient.h).
+// Which layer of probes tells how light changes along a normal (kernels/lookup/surface_gradient.h).
 struct ProbegiFront {
     int axis;
     int side;     // 1 or 0: the cage's layer in front, along the axis

@@ -1,5 +1,5 @@
 // Look-ups in the packed scene: what a hit looks like, which candidate hits count, the lights and the sky. The same
-// steps as src/surface/surface_shader.cpp, on the same formulas.
+// steps as src/geometry/surface_shader.cpp, on the same formulas.
 //
 // Whoever includes this defines PROBEGI_SCENE before, an expression of type SceneAddresses: a push constant, a uniform,
 // or SceneBlock(address).scene for one that lies in memory.
@@ -10,12 +10,12 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 #extension GL_EXT_scalar_block_layout : require
 
-#include "kernels/gpu_scene.h"
-#include "kernels/punctual_light.h"
-#include "kernels/ray_offset.h"
-#include "kernels/sky.h"
-#include "kernels/surface.h"
-#include "kernels/texture.h"
+#include "kernels/abi/gpu_scene.h"
+#include "kernels/light/punctual_light.h"
+#include "kernels/trace/ray_offset.h"
+#include "kernels/light/sky.h"
+#include "kernels/shade/surface.h"
+#include "kernels/shade/texture.h"
 #include "vulkan/shaders/types.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SceneBlock {

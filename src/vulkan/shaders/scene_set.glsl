@@ -4,7 +4,7 @@
 
 #include "common.glsl"
 
-#include "kernels/gpu_passes.h"
+#include "kernels/abi/gpu_passes.h"
 
 layout(set = 1, binding = 0, scalar) uniform SceneUniforms {
     SceneConstants sceneConstants;

@@ -6,10 +6,10 @@
 #include "rays.glsl"
 #include "volume.glsl"
 
-#include "kernels/bounce.h"
-#include "kernels/colour.h"
-#include "kernels/emitter_sampling.h"
-#include "kernels/probe_blend.h"
+#include "kernels/shade/bounce.h"
+#include "kernels/screen/colour.h"
+#include "kernels/light/emitter_sampling.h"
+#include "kernels/blend/probe_blend.h"
 
 layout(push_constant, scalar) uniform Push {
     TracePush push;

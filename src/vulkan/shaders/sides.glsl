@@ -1,10 +1,10 @@
-// kernels/solid_probe.h's ProbeSides in a buffer.
+// kernels/probe/solid_probe.h's ProbeSides in a buffer.
 #ifndef PROBEGI_SIDES_GLSL
 #define PROBEGI_SIDES_GLSL
 
 #include "common.glsl"
 
-#include "kernels/solid_probe.h"
+#include "kernels/probe/solid_probe.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Sides {
     ProbeSides at[];

@@ -1,8 +1,8 @@
 // Linear light to 8-bit sRGB.
 #include "common.glsl"
 
-#include "kernels/gpu_passes.h"
-#include "kernels/tone_map.h"
+#include "kernels/abi/gpu_passes.h"
+#include "kernels/screen/tone_map.h"
 
 layout(push_constant, scalar) uniform Push {
     ToneMapPush push;

@@ -4,7 +4,7 @@
 
 #include "tracer.glsl"
 
-#include "kernels/bvh_scene.h"
+#include "kernels/trace/bvh_scene.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhNodes {
     BvhNode at[];
@@ -29,7 +29,7 @@ bool bvhAlphaPasses(int instance, int primitive, vec2 barycentric) {
     return alphaPasses(instance, kGeometryMasked, primitive, barycentric);
 }
 
-#include "kernels/bvh_traverse.h"
+#include "kernels/trace/bvh_traverse.h"
 
 Hit closestHit(Ray ray) {
     const BvhHit hit = bvhClosestHit(ray.origin, max(ray.near, 0.0), ray.direction, ray.far,

@@ -6,11 +6,11 @@
 
 #include "tracer.glsl"
 
-#include "kernels/bvh_node.h"
+#include "kernels/trace/bvh_node.h"
 
 layout(set = 1, binding = 1) uniform accelerationStructureEXT sceneStructure;
 
-// The placement of an intersection; -1: the world (src/vulkan/ray_query_scene_tracer.cpp).
+// The placement of an intersection; -1: the world (src/vulkan/tracers/ray_query_scene_tracer.cpp).
 #define RAY_QUERY_INSTANCE(query, committed) (rayQueryGetIntersectionInstanceCustomIndexEXT(query, committed) - 1)
 
 // Candidates are points of masked triangles: opaque ones are committed without a word.

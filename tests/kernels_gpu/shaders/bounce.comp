@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/bounce.h"
+#include "kernels/shade/bounce.h"
 
 void evaluate(INOUT(Lane) lane) {
     const vec3 albedo = takeVector(lane, 0.0f, 1.0f);

@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/bsdf.h"
+#include "kernels/shade/bsdf.h"
 
 // Roughness and angles keep away from the poles of the formulas, where a rounding of the direction is magnified by
 // 1 / alpha^2 and 1 / cosine, and sampled normals from the horizon: there both sides are right, and differ.

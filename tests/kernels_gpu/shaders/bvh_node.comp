@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/bvh_node.h"
+#include "kernels/trace/bvh_node.h"
 
 // Any bits make a node: planes may be inside out, slots empty. Exponents stay where sums round alike on both sides.
 BvhNode takeNode(INOUT(Lane) lane) {

@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/bvh_scene.h"
+#include "kernels/trace/bvh_scene.h"
 
 void evaluate(INOUT(Lane) lane) {
     BvhInstance placed;

@@ -2,7 +2,7 @@
 
 #include "bvh_traverse_access.h"
 
-#include "kernels/bvh_traverse.h"
+#include "kernels/trace/bvh_traverse.h"
 
 void giveHit(INOUT(Lane) lane, BvhHit hit) {
     give(lane, hit.distance, 1e-4f);

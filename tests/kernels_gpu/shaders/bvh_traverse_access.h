@@ -3,7 +3,7 @@
 #ifndef PROBEGI_TESTS_KERNELS_GPU_SHADERS_BVH_TRAVERSE_ACCESS_H
 #define PROBEGI_TESTS_KERNELS_GPU_SHADERS_BVH_TRAVERSE_ACCESS_H
 
-#include "kernels/bvh_scene.h"
+#include "kernels/trace/bvh_scene.h"
 
 KERNELS_BEGIN
 

@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/colour.h"
+#include "kernels/screen/colour.h"
 
 void evaluate(INOUT(Lane) lane) {
     const vec3 color = takeVector(lane, 0.0f, 20.0f);

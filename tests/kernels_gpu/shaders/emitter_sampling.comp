@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/emitter_sampling.h"
+#include "kernels/light/emitter_sampling.h"
 
 // Choices are integers: exact on both sides.
 void evaluate(INOUT(Lane) lane) {

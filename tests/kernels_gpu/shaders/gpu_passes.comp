@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/gpu_passes.h"
+#include "kernels/abi/gpu_passes.h"
 
 // Structs only: that both languages know them by the same members.
 void evaluate(INOUT(Lane) lane) {

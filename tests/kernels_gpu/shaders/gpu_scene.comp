@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/gpu_scene.h"
+#include "kernels/abi/gpu_scene.h"
 
 void evaluate(INOUT(Lane) lane) {
     const int wrapU = takeIndex(lane, 3);

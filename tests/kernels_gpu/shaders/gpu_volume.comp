@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/gpu_volume.h"
+#include "kernels/volume/gpu_volume.h"
 
 void evaluate(INOUT(Lane) lane) {
     const int x = 2 + takeIndex(lane, 40);

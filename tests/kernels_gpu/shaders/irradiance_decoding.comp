@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/irradiance_decoding.h"
+#include "kernels/probe/irradiance_decoding.h"
 
 void evaluate(INOUT(Lane) lane) {
     const float stored = takeBetween(lane, 0.0f, 64.0f);

@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/irradiance_encoding.h"
+#include "kernels/probe/irradiance_encoding.h"
 
 // Over the twelve decades that the format holds, zero and below included.
 void evaluate(INOUT(Lane) lane) {

@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/octahedral.h"
+#include "kernels/probe/octahedral.h"
 
 void evaluate(INOUT(Lane) lane) {
     const vec3 direction = takeDirection(lane);

@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/octahedral_texel.h"
+#include "kernels/probe/octahedral_texel.h"
 
 void evaluate(INOUT(Lane) lane) {
     const int size = 4 + 2 * takeIndex(lane, 15);

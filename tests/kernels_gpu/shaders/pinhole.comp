@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/pinhole.h"
+#include "kernels/screen/pinhole.h"
 
 void evaluate(INOUT(Lane) lane) {
     const vec3 origin = takeVector(lane, -10.0f, 10.0f);

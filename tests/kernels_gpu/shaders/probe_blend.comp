@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/probe_blend.h"
+#include "kernels/blend/probe_blend.h"
 
 // The hysteresis jumps at its thresholds; values are drawn continuously, so that none lies within rounding of one.
 void evaluate(INOUT(Lane) lane) {

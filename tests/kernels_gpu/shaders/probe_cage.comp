@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/probe_cage.h"
+#include "kernels/volume/probe_cage.h"
 
 // Grid positions are given in quarters: far from a whole number, where a rounding would choose another probe, or on it.
 void evaluate(INOUT(Lane) lane) {

@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/probe_neighbours.h"
+#include "kernels/lookup/probe_neighbours.h"
 
 void evaluate(INOUT(Lane) lane) {
     const float mean = takeUnit(lane);

@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/probe_query.h"
+#include "kernels/lookup/probe_query.h"
 
 void evaluate(INOUT(Lane) lane) {
     const vec3 normal = takeDirection(lane);

@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/probe_texel.h"
+#include "kernels/probe/probe_texel.h"
 
 // A dithered rounding magnifies the last bit of a value to a step of the storage where the two meet; so blends are
 // compared to a step, and bit for bit where no rounding comes before the dither.

@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/punctual_light.h"
+#include "kernels/light/punctual_light.h"
 
 void giveSample(INOUT(Lane) lane, LightSample s, float tolerance) {
     giveVec3(lane, s.toLight, 2e-6f);

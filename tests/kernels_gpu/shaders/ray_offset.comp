@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/ray_offset.h"
+#include "kernels/trace/ray_offset.h"
 
 // A range that is a power of two: the random position itself is then exact.
 void evaluate(INOUT(Lane) lane) {

@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/ray_set.h"
+#include "kernels/trace/ray_set.h"
 
 void giveRotation(INOUT(Lane) lane, mat3 r) {
     for (int column = 0; column < 3; ++column) giveVec3(lane, r[column], 5e-6f);

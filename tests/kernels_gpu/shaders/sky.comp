@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/sky.h"
+#include "kernels/light/sky.h"
 
 // Away from the seam behind, where u jumps from 1 to 0.
 vec3 takeAhead(INOUT(Lane) lane) {

@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/solid_probe.h"
+#include "kernels/probe/solid_probe.h"
 
 void evaluate(INOUT(Lane) lane) {
     ProbeSides sides;

@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/storage.h"
+#include "kernels/probe/storage.h"
 
 // Bits in, bits out: exact, but for the 16-bit integers.
 void evaluate(INOUT(Lane) lane) {

@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/surface.h"
+#include "kernels/shade/surface.h"
 
 void giveVec4(INOUT(Lane) lane, vec4 v, float tolerance) {
     giveVec3(lane, vec3(v.x, v.y, v.z), tolerance);

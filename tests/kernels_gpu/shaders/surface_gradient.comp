@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/surface_gradient.h"
+#include "kernels/lookup/surface_gradient.h"
 
 void evaluate(INOUT(Lane) lane) {
     const vec3 normal = takeDirection(lane);

@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/temporal_filter.h"
+#include "kernels/blend/temporal_filter.h"
 
 void giveFilter(INOUT(Lane) lane, ProbeFilter f, float tolerance) {
     for (int i = 0; i < kSightLobes; ++i) give(lane, f.direct[i], tolerance);

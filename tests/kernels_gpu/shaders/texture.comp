@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/texture.h"
+#include "kernels/shade/texture.h"
 
 void giveSpan(INOUT(Lane) lane, TexelSpan s) {
     giveBits(lane, uint(s.first));

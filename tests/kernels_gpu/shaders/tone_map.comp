@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/tone_map.h"
+#include "kernels/screen/tone_map.h"
 
 void evaluate(INOUT(Lane) lane) {
     const vec3 color = takeVector(lane, -1.0f, 3.0f);

@@ -1,6 +1,6 @@
 #include "lane.h"
 
-#include "kernels/triangle_hit.h"
+#include "kernels/trace/triangle_hit.h"
 
 // Rays through a known point of a triangle that is not degenerate and not seen from its edge, where both sides must
 // find the same; and rays anywhere, which must at least be answered without a hit that is none.

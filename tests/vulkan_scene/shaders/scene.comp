@@ -5,7 +5,7 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
 
-#include "kernels/gpu_scene.h"
+#include "kernels/abi/gpu_scene.h"
 #include "question.h"
 
 layout(local_size_x = 64) in;

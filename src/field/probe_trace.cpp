@@ -1,0 +1,238 @@
+#include "field/probe_trace.h"
+
+#include <algorithm>
+#include <chrono>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "core/parallel.h"
+#include "field/probe_emitters.h"
+#include "field/ray_order.h"
+#include "geometry/lighting.h"
+#include "kernels/blend/probe_blend.h"
+#include "kernels/language.h"
+#include "kernels/screen/colour.h"
+#include "kernels/shade/bounce.h"
+#include "scene/sky.h"
+
+namespace probegi {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Rays a batch, about: enough to amortise calls, few enough for the second-level cache.
+constexpr std::size_t kRaysPerBatch = 1152;
+
+std::int64_t nanoseconds(Clock::duration d) {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(d).count();
+}
+
+// What a ray brings home.
+struct RayLight {
+    glm::vec3 emitted{0.0f};  // does not depend on other light
+    float distance = 0;
+    glm::vec3 direct{0.0f}, bounced{0.0f};  // reflected
+    bool back = false;                      // from the back of a surface with two sides: see RayDatum
+};
+
+// Everything a task needs, kept between tasks of a thread. What has an entry for each ray is as long as the longest
+// batch, and filled in place, field by field: whole structs would go through memory twice.
+struct TaskBuffers {
+    std::vector<std::uint32_t> probes;
+    std::vector<glm::vec3> origins;  // of the probes
+    std::vector<Ray> rays, shadowRays;
+    std::vector<Hit> hits;
+    std::vector<Surface> surfaces;
+    std::vector<RayLight> light;
+    std::vector<std::uint32_t> lit;       // indices into rays of hits that reflect
+    std::vector<std::uint32_t> shadowed;  // for each shadow ray: index into lit
+    std::vector<glm::vec3> unshadowed;    // for each shadow ray: irradiance where it is not blocked
+    std::vector<std::uint8_t> blocked;
+    std::vector<FieldQuery> queries;
+    std::vector<glm::vec3> irradiance;  // for each entry of lit: from punctual lights
+    std::vector<glm::vec3> bounced;     // for each entry of lit: from the field
+
+    void reserve(std::size_t most) {
+        if (rays.size() >= most) return;
+        const auto each = [most](auto&... buffers) { (buffers.resize(most), ...); };
+        // The rays last: where memory ends, the others are asked for again.
+        each(shadowRays, hits, surfaces, light, shadowed, unshadowed, blocked, queries, irradiance, bounced, rays);
+    }
+};
+
+// Directions of a batch: some of the update rays', or of the fixed rays'.
+struct Batch {
+    std::span<const OrderedDirection> directions;
+    bool fixed;
+};
+
+std::vector<Batch> makeBatches(std::span<const OrderedDirection> update, std::span<const OrderedDirection> fixed) {
+    constexpr std::size_t kMost = kRaysPerBatch / ProbeBlocks::kMostProbes;
+    std::vector<Batch> batches;
+    const auto add = [&](std::span<const OrderedDirection> all, bool isFixed) {
+        for (std::size_t begin = 0; begin < all.size(); begin += kMost)
+            batches.push_back({all.subspan(begin, std::min(kMost, all.size() - begin)), isFixed});
+    };
+    add(update, false);
+    add(fixed, true);
+    return batches;
+}
+
+// Rays of one direction side by side. Returns how many.
+std::size_t makeRays(const Batch& batch, TaskBuffers& b) {
+    const std::size_t count = batch.directions.size() * b.origins.size();
+    b.reserve(count);
+    Ray* ray = b.rays.data();
+    for (const OrderedDirection& d : batch.directions)
+        for (const glm::vec3& origin : b.origins) {
+            ray->origin = origin;
+            ray->direction = d.direction;
+            ++ray;
+        }
+    return count;
+}
+
+// Irradiance from punctual lights, in b.irradiance.
+Result<void> gatherDirectLight(const Tracer& tracer, const Lighting& lighting, float magnitude, TaskBuffers& b) {
+    std::fill_n(b.irradiance.begin(), b.lit.size(), glm::vec3(0));
+    for (const PlacedLight& light : lighting.lights) {
+        std::size_t count = 0;
+        for (std::uint32_t i = 0; i < b.lit.size(); ++i) {
+            const Surface& s = b.surfaces[b.lit[i]];
+            const kernels::LightSample sample = sampleLight(light, s.position);
+            const float cosine = glm::dot(sample.toLight, s.shadingNormal);
+            if (!(cosine > 0) || !(glm::dot(sample.toLight, s.geometricNormal) > 0)) continue;
+            const glm::vec3 e = sample.irradianceAtNormal * cosine;
+            if (e == glm::vec3(0)) continue;
+            const Ray shadow = shadowRay(s.position, s.geometricNormal, sample, magnitude);
+            Ray& ray = b.shadowRays[count];
+            ray.origin = shadow.origin;
+            ray.direction = shadow.direction;
+            ray.far = shadow.far;
+            b.shadowed[count] = i;
+            b.unshadowed[count++] = e;
+        }
+        const std::span<std::uint8_t> blocked(b.blocked.data(), count);
+        if (auto traced = tracer.occluded({b.shadowRays.data(), count}, blocked); !traced) return traced;
+        for (std::size_t k = 0; k < count; ++k)
+            if (!blocked[k]) b.irradiance[b.shadowed[k]] += b.unshadowed[k];
+    }
+    return {};
+}
+
+// Irradiance of earlier bounces at the hits: last frame's field (section 2.3).
+Result<void> queryBounces(const BounceQuery& bounces, TaskBuffers& b) {
+    const std::size_t count = b.lit.size();
+    if (!bounces) {
+        std::fill_n(b.bounced.begin(), count, glm::vec3(0));
+        return {};
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+        const Surface& surface = b.surfaces[b.lit[k]];
+        FieldQuery& query = b.queries[k];
+        query.position = surface.position;
+        query.normal = surface.shadingNormal;
+        query.toViewer = -b.rays[b.lit[k]].direction;
+    }
+    return bounces({b.queries.data(), count}, {b.bounced.data(), count});
+}
+
+// Distances and the radiance that does not depend on other light; lists the hits that reflect.
+void resolveHits(const Lighting& lighting, const EmitterSearch& emitters, const Batch& batch, std::size_t count,
+                 TaskBuffers& b) {
+    b.lit.clear();
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Hit& hit = b.hits[i];
+        const Surface& surface = b.surfaces[i];
+        RayLight& light = b.light[i];
+        light = {};
+        if (!hit.valid()) {
+            light.emitted = skyRadiance(lighting.sky, b.rays[i].direction);
+            light.distance = 1e30f;
+        } else if (surface.backface) {
+            light.distance = -hit.distance;
+        } else {
+            // Fixed rays see all of an emission: looks at emitters add nothing to them.
+            const float share = batch.fixed ? 1.0f : emitters.rayShare(surface.material, hit.distance);
+            light.emitted = surface.emission * share;
+            light.distance = hit.distance;
+            light.back = surface.back;
+            b.lit.push_back(i);
+        }
+    }
+}
+
+RayDatum updateDatum(const RayLight& light) {
+    const glm::vec3 radiance = light.emitted + (light.direct + light.bounced);
+    if (light.back) return {kernels::radianceFromBack(radiance), -light.distance};
+    return {radiance, light.distance};
+}
+
+FixedRayDatum fixedDatum(const RayLight& light) {
+    return {kernels::luminance(light.emitted) + kernels::luminance(light.direct), kernels::luminance(light.bounced),
+            light.back ? -light.distance : light.distance};
+}
+
+void writeData(const ProbeRayDirections& directions, const Batch& batch, const TaskBuffers& b,
+               const ProbeRayData& out) {
+    const RayLight* light = b.light.data();
+    for (const OrderedDirection& d : batch.directions)
+        for (const std::size_t probe : b.probes) {
+            if (batch.fixed)
+                out.fixed[probe * directions.fixed.size() + d.index] = fixedDatum(*light);
+            else
+                out.update[probe * directions.update.size() + d.index] = updateDatum(*light);
+            ++light;
+        }
+}
+
+// What a batch's rays bring home, from their hits on.
+Result<void> shadeBatch(const Tracer& tracer, const Lighting& lighting, float magnitude, const BounceQuery& bounces,
+                        const EmitterSearch& emitters, const Batch& batch, std::size_t count, TaskBuffers& b) {
+    const std::span<Surface> surfaces(b.surfaces.data(), count);
+    if (auto seen = tracer.surfaces({b.rays.data(), count}, {b.hits.data(), count}, surfaces); !seen) return seen;
+    resolveHits(lighting, emitters, batch, count, b);
+    if (auto asked = queryBounces(bounces, b); !asked) return asked;
+    if (auto lit = gatherDirectLight(tracer, lighting, magnitude, b); !lit) return lit;
+    for (std::size_t k = 0; k < b.lit.size(); ++k) {
+        const Surface& surface = b.surfaces[b.lit[k]];
+        RayLight& light = b.light[b.lit[k]];
+        light.direct = kernels::bounceRadiance(surface.albedo, b.irradiance[k]);
+        light.bounced = kernels::bounceRadiance(surface.albedo, b.bounced[k]);
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<void> traceProbes(const Context& context, const GridDesc& grid, const ProbeRayDirections& directions,
+                         const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces,
+                         const EmitterSearch& emitters, const ProbeRayData& out, TraceTimes& times) {
+    const float magnitude = sceneMagnitude(tracer.bounds());
+    const ProbeBlocks blocks(grid);
+    const std::vector<OrderedDirection> update = alongCurve(directions.update), fixed = alongCurve(directions.fixed);
+    const auto traceBatch = [&](const Batch& batch, TaskBuffers& b) -> Result<void> {
+        const auto start = Clock::now();
+        const std::size_t count = makeRays(batch, b);
+        if (auto hit = tracer.closestHits({b.rays.data(), count}, {b.hits.data(), count}); !hit) return hit;
+        const auto traced = Clock::now();
+        if (auto shaded = shadeBatch(tracer, lighting, magnitude, bounces, emitters, batch, count, b); !shaded)
+            return shaded;
+        writeData(directions, batch, b, out);
+        times.traceNs += nanoseconds(traced - start);
+        times.shadeNs += nanoseconds(Clock::now() - traced);
+        return {};
+    };
+    const std::vector<Batch> batches = makeBatches(update, fixed);
+    const auto traceTask = [&](std::size_t task, std::size_t) -> Result<void> {
+        thread_local TaskBuffers b;
+        blocks.probesOf(task / batches.size(), b.probes);
+        b.origins.clear();
+        for (const std::uint32_t probe : b.probes) b.origins.push_back(probePosition(grid, int(probe)));
+        return traceBatch(batches[task % batches.size()], b);
+    };
+    return tryParallelFor(context, blocks.count() * batches.size(), 1, traceTask);
+}
+
+}  // namespace probegi

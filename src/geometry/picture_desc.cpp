@@ -1,0 +1,31 @@
+#include "geometry/picture_desc.h"
+
+#include "core/sentence.h"
+
+namespace probegi {
+
+namespace {
+constexpr int kMaxSide = 16384;
+}
+
+Result<void> validatePictureDesc(const PictureDesc& desc) {
+    if (desc.width < 1 || desc.width > kMaxSide || desc.height < 1 || desc.height > kMaxSide)
+        return fail(ErrorCode::invalidArgument, sentence("a picture of ", desc.width, "x", desc.height,
+                                                         " pixels is not possible; each side must be 1 to ", kMaxSide));
+    if (desc.samplesPerAxis < 1 || desc.samplesPerAxis > 8)
+        return fail(ErrorCode::invalidArgument,
+                    sentence("samplesPerAxis is ", desc.samplesPerAxis, "; it must be 1 to 8"));
+    return {};
+}
+
+Picture emptyPicture(int width, int height) {
+    const HdrImage empty(width, height);
+    return {empty, empty, empty, empty, empty, empty, empty};
+}
+
+Error pictureDoesNotFit(const PictureDesc& desc) {
+    return {ErrorCode::outOfMemory, sentence("a picture of ", desc.width, "x", desc.height,
+                                             " pixels does not fit into memory; choose a smaller size")};
+}
+
+}  // namespace probegi

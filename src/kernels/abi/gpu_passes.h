@@ -1,0 +1,228 @@
+// Push constants of the compute passes: one struct for C++ and GLSL, scalar layout, at most 128 bytes. Buffers are
+// given by their device addresses, low word first.
+#ifndef PROBEGI_KERNELS_GPU_PASSES_H
+#define PROBEGI_KERNELS_GPU_PASSES_H
+
+#include "kernels/abi/gpu_scene.h"
+#include "kernels/blend/temporal_filter.h"
+#include "kernels/screen/pinhole.h"
+
+KERNELS_BEGIN
+
+// What the library's own BVH lies at, and the roots of its two levels (kernels/trace/bvh_traverse.h).
+struct BvhAddresses {
+    uvec2 nodes;      // BvhNode[]
+    uvec2 triangles;  // BvhTriangle[]
+    uvec2 instances;  // BvhInstance[]
+    uint worldRoot;
+    uint instancesRoot;
+};
+
+// The uniform buffer of a scene. Lights and sky of `scene` are left open: they come with each pass.
+struct SceneConstants {
+    SceneAddresses scene;
+    BvhAddresses bvh;
+};
+
+// Punctual lights and sky, in a buffer of their own.
+struct LightingBlock {
+    uvec2 lights;     // GpuLight[lightCount]
+    uvec2 skyPixels;  // vec3[]
+    GpuSky sky;
+    int lightCount;
+};
+
+// One entry of the sparse visibility weights: what ray counts for a texel, and how much.
+struct GpuRayWeight {
+    uint ray;
+    float weight;
+};
+
+// What there is of them for a texel.
+struct GpuTexelRays {
+    uint count;      // entries
+    float evidence;  // visibilityEvidence(); by the paper's rules 1
+};
+
+// Weights of a frame's rays for the texels of a probe (blend_weights.comp).
+struct WeightsPush {
+    uvec2 directions;         // vec3[rays]
+    uvec2 irradianceWeights;  // float[ray][texel]
+    uvec2 visibilityRays;     // GpuTexelRays[texel]
+    uvec2 visibilityWeights;  // GpuRayWeight[entry][texel], in the order of rays
+    int rays;
+    int irradianceTexels;  // of a map, all
+    int visibilityTexels;
+    int irradianceSize;  // side of a map
+    int visibilitySize;
+    float visibilityExponent;
+    int rules;
+};
+
+// What the passes of one update hand to each other about a probe (kernels/blend/temporal_filter.h).
+struct GpuProbeStep {
+    ProbeSight sight;
+    ProbeLag lag;
+    float lagShare;        // of its irradiance, relative
+    float irradianceKept;  // share of the old values that survives
+    float visibilityKept;
+};
+
+// The passes around a blend with windows (probe_lag.comp, probe_windows.comp, probe_filter.comp).
+struct FilterPush {
+    uvec2 steps;       // GpuProbeStep[probe]
+    uvec2 filters;     // PackedProbeFilter[probe]
+    uvec2 changes;     // TexelChange[block of texels][probe]
+    uvec2 rayData;     // FixedRayDatum[probe][ray] or, ownRays, RayDatum[probe][ray]
+    uvec2 directions;  // vec3[ray]
+    int rays;
+    int probes;
+    int ownRays;          // 1: there are no fixed rays, the update's own must do
+    int texels;           // of an irradiance map, all
+    float maxDistance;    // metres
+    float longestWindow;  // updates; forget: the windows
+    float longestVisibilityWindow;
+    uint ditherSeed;
+    int forget;  // 1: probe_filter.comp only writes forgottenFilter()
+};
+
+// What a work group of the blends makes.
+KERNEL_CONST int kIrradianceGroupProbes = 16;
+KERNEL_CONST int kIrradianceGroupTexels = 64;
+KERNEL_CONST int kVisibilityGroupProbes = 4;  // and all their texels
+
+// Both blends (blend_irradiance.comp, blend_visibility.comp).
+struct BlendPush {
+    uvec2 rayData;            // RayDatum[probe][ray]
+    uvec2 sides;              // ProbeSides[probe]
+    uvec2 irradianceWeights;  // as WeightsPush
+    uvec2 visibilityRays;
+    uvec2 visibilityWeights;
+    int rays;
+    int probes;
+    float maxDistance;           // metres
+    float irradianceHysteresis;  // alpha of eq. 1
+    float visibilityHysteresis;
+    float significantChange;  // Listing 3
+    float newDistribution;    // Listing 3
+    uint ditherSeed;
+    int linear;           // 1: blendLinear
+    uvec2 emitterLights;  // EmitterLight[probe][look]
+    int looks;            // at emitters, a probe; 0: none
+    uvec2 steps;          // GpuProbeStep[probe]: each with its own hysteresis; 0: all with the above
+    uvec2 changes;        // out, where there are steps: TexelChange[block of texels][probe]
+};
+
+// Ways into the open (find_solid_probes.comp).
+struct SolidPush {
+    uvec2 sides;  // ProbeSides[probe]
+    int probes;
+};
+
+// Probe rays (trace_probes.comp), their shading (shade_probes.comp), and looks at emitters (look_at_emitters.comp).
+struct TracePush {
+    uvec2 directions;   // vec3[rays]
+    uvec2 hits;         // Hit[ray][probe]
+    uvec2 rayData;      // RayDatum[probe][ray]
+    uvec2 lighting;     // LightingBlock
+    uvec2 fixedRays;    // FixedRayDatum[probe][ray]
+    int rays;           // that are blended
+    int fixedRayCount;  // that come after them in directions and hits
+    int probes;
+    int bounces;          // 1: the probes hold light of an earlier update
+    int looks;            // at emitters, a probe; 0: none
+    uvec2 emitterLights;  // EmitterLight[probe][look]
+    uint emitterSeed;     // of the frame
+};
+
+// Irradiance at points (query.comp).
+struct QueryPush {
+    uvec2 queries;     // FieldQuery[count]
+    uvec2 irradiance;  // vec3[count]
+    uint count;
+};
+
+// Closest hits of given rays, occlusion, surfaces (trace_rays.comp, trace_occlusion.comp, surfaces.comp).
+struct RaysPush {
+    uvec2 rays;     // Ray[count]
+    uvec2 hits;     // Hit[count]
+    uvec2 results;  // occlusion: uint[count]; surfaces: GpuSurface[count]
+    uint count;
+    float spread;  // surfaces: radians of the cones that textures are filtered over; 0: not at all
+};
+
+// probegi::Surface without its gaps.
+struct GpuSurface {
+    vec3 position;
+    vec3 geometricNormal;
+    vec3 shadingNormal;
+    vec3 albedo;
+    vec3 emission;
+    float metallic;
+    float roughness;
+    int material;
+    int side;  // kSideFront, kSideBack (of a material with two sides), kSideBackface
+};
+KERNEL_CONST int kSideFront = 0;
+KERNEL_CONST int kSideBack = 1;
+KERNEL_CONST int kSideBackface = 2;
+
+// A picture, a band of rows at a time (picture_primary.comp, picture_direct.comp, picture_query.comp,
+// picture_resolve.comp).
+struct PicturePush {
+    uvec2 samples;   // GpuSample[sampleCount]
+    uvec2 layers;    // vec3[layer][pixel of the band]
+    uvec2 lighting;  // LightingBlock
+    PinholeCamera camera;
+    int width;  // pixels
+    int firstRow;
+    int rows;  // of the band
+    int samplesPerAxis;
+    uint sampleCount;  // of the band
+    int flags;         // kPictureDiffuseOnly
+};
+KERNEL_CONST int kPictureDiffuseOnly = 1;
+
+// What a primary ray shows, between the passes of a picture.
+struct GpuSample {
+    vec3 position;
+    int kind;        // kSampleSky, kSampleSurface, kSampleBackface
+    vec3 direction;  // of the ray, unit
+    float distance;  // metres; 0 for the sky
+    vec3 geometricNormal;
+    float metallic;
+    vec3 shadingNormal;
+    float roughness;
+    vec3 albedo;
+    vec3 direct;    // radiance: emission and punctual lights, or the sky's
+    vec3 indirect;  // E from the field, W m^-2
+};
+KERNEL_CONST int kSampleSky = 0;
+KERNEL_CONST int kSampleSurface = 1;
+KERNEL_CONST int kSampleBackface = 2;
+
+// Linear values to 8-bit sRGB (tone_map.comp).
+struct ToneMapPush {
+    uvec2 pixels;   // vec3[row][column]
+    uvec2 display;  // uint[row][column], RGBA8, red in the lowest byte
+    uint width;     // pixels
+    uint height;
+    float exposure;
+    int filmic;
+    int dither;
+};
+
+KERNELS_END
+
+#ifdef __cplusplus
+namespace probegi::kernels {
+static_assert(offsetof(SceneConstants, bvh) == 140 && sizeof(SceneConstants) == 172 && sizeof(LightingBlock) == 40);
+static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 12 && sizeof(BlendPush) == 104 &&
+              sizeof(TracePush) == 72);
+static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 96);
+static_assert(sizeof(FilterPush) == 76 && sizeof(GpuProbeStep) == 80);
+static_assert(sizeof(ToneMapPush) == 36 && sizeof(GpuSurface) == 76 && sizeof(GpuSample) == 100);
+}  // namespace probegi::kernels
+#endif
+
+#endif

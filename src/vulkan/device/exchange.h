@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+
+#include "vulkan/device/errors.h"
+#include "vulkan/device/recorder.h"
+
+namespace probegi::vulkan {
+
+/// Arrays that go to the GPU, through passes, and come back. Buffers are kept and grow. Throws. One thread at a time.
+class Exchange {
+public:
+    explicit Exchange(const Device& device) : m_device(device) {}
+
+    /// Begins a round: how many bytes go in and come out at most.
+    void begin(std::size_t bytesIn, std::size_t bytesOut);
+    /// Appends values to what goes in and returns where they will lie.
+    template <class T>
+    VkDeviceAddress add(std::span<const T> values) {
+        const std::size_t at = m_used;
+        std::memcpy(m_upload.mapped<std::byte>().data() + at, values.data(), values.size_bytes());
+        m_used += (values.size_bytes() + 15) / 16 * 16;
+        return m_in.address() + at;
+    }
+    /// Where results are expected.
+    VkDeviceAddress out() const noexcept { return m_out.address(); }
+    const Buffer& outBuffer() const noexcept { return m_out; }
+    /// Copies in, records the passes, copies the first bytes of the results back, waits.
+    void run(const std::function<void(const Recorder&)>& passes, std::size_t bytesBack);
+    template <class T>
+    std::span<const T> results() const noexcept {
+        return m_readback.mapped<T>();
+    }
+    std::size_t bytes() const noexcept { return m_in.bytes() + m_out.bytes(); }  ///< of GPU memory
+
+private:
+    Device m_device;
+    Buffer m_upload, m_in, m_out, m_readback;
+    std::size_t m_used = 0;
+};
+
+/// Records, submits and waits. Throws Failure on a device of an engine's: the library does not submit there.
+void submitAndWait(const Device& device, const std::function<void(const Recorder&)>& passes);
+
+}  // namespace probegi::vulkan

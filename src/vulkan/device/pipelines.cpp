@@ -1,0 +1,182 @@
+#include "vulkan/device/pipelines.h"
+
+#include <cstring>
+#include <fstream>
+#include <iomanip>
+#include <random>
+#include <sstream>
+#include <vector>
+
+#include "core/sentence.h"
+#include "vulkan/device/errors.h"
+#include "vulkan/device/shader_code.h"
+
+namespace probegi::vulkan {
+
+namespace {
+
+std::string hex(std::uint32_t value, int digits) {
+    std::ostringstream out;
+    out << std::hex << std::setw(digits) << std::setfill('0') << value;
+    return out.str();
+}
+
+// Drivers check the header of their pipeline cache, but not all survive a damaged body: a sum over it goes before it.
+struct CacheHeader {
+    char magic[8] = {'P', 'G', 'I', 'C', 'A', 'C', 'H', '1'};
+    std::uint64_t bytes = 0;
+    std::uint64_t sum = 0;
+};
+
+// FNV-1a, 64 bits: finds accidents, not attacks.
+std::uint64_t checksum(std::span<const std::uint8_t> data) {
+    std::uint64_t sum = 0xcbf29ce484222325u;
+    for (const std::uint8_t byte : data) sum = (sum ^ byte) * 0x100000001b3u;
+    return sum;
+}
+
+// One file a driver and device: their names are in the UUID.
+std::filesystem::path cacheFile(const vk::raii::PhysicalDevice& physical, const std::filesystem::path& folder) {
+    if (folder.empty()) return {};
+    std::string name = "pipelines-";
+    for (const std::uint8_t byte : physical.getProperties().pipelineCacheUUID) name += hex(byte, 2);
+    return folder / (name + ".bin");
+}
+
+std::vector<std::uint8_t> readCache(const std::filesystem::path& file, std::string& warning) {
+    constexpr std::uintmax_t kMostBytes = 1 << 30;
+    std::error_code error;
+    // Opening a pipe would wait for ever, and a device may have no end.
+    const bool readable =
+        std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) <= kMostBytes;
+    std::ifstream in;
+    if (readable) in.open(file, std::ios::binary);
+    if (!in.is_open() && (readable || !std::filesystem::exists(file, error))) return {};
+    // What is not readable leaves the text empty.
+    std::ostringstream stream;
+    stream << in.rdbuf();
+    const std::string text = stream.str();
+    CacheHeader header;
+    std::vector<std::uint8_t> body;
+    if (text.size() >= sizeof(header)) {
+        std::memcpy(&header, text.data(), sizeof(header));
+        body.assign(text.begin() + sizeof(header), text.end());
+    }
+    if (body.empty() || std::memcmp(header.magic, CacheHeader().magic, sizeof(header.magic)) != 0 ||
+        header.bytes != body.size() || header.sum != checksum(body)) {
+        warning = sentence("the shader cache '", file.generic_string(),
+                           "' is damaged and was ignored; it will be written anew");
+        return {};
+    }
+    return body;
+}
+
+// Whether a driver's cache says that it is this driver's (VkPipelineCacheHeaderVersionOne). Drivers look as well, but
+// say nothing.
+bool isOf(const vk::raii::PhysicalDevice& physical, std::span<const std::uint8_t> cache) {
+    VkPipelineCacheHeaderVersionOne header;
+    if (cache.size() < sizeof(header)) return false;
+    std::memcpy(&header, cache.data(), sizeof(header));
+    const auto properties = physical.getProperties();
+    return header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && header.vendorID == properties.vendorID &&
+           header.deviceID == properties.deviceID &&
+           std::memcmp(header.pipelineCacheUUID, properties.pipelineCacheUUID.data(), VK_UUID_SIZE) == 0;
+}
+
+vk::raii::DescriptorSetLayout makeVolumeLayout(const vk::raii::Device& device) {
+    using Type = vk::DescriptorType;
+    const auto stages = vk::ShaderStageFlagBits::eCompute;
+    const vk::DescriptorSetLayoutBinding bindings[] = {
+        {0, Type::eUniformBuffer, 1, stages},        {1, Type::eCombinedImageSampler, 1, stages},
+        {2, Type::eCombinedImageSampler, 1, stages}, {3, Type::eStorageBuffer, 1, stages},
+        {4, Type::eStorageImage, 1, stages},         {5, Type::eStorageImage, 1, stages}};
+    return {device, vk::DescriptorSetLayoutCreateInfo({}, bindings)};
+}
+
+vk::raii::DescriptorSetLayout makeSceneLayout(const vk::raii::Device& device, bool rayQuery) {
+    const auto stages = vk::ShaderStageFlagBits::eCompute;
+    std::vector<vk::DescriptorSetLayoutBinding> bindings = {{0, vk::DescriptorType::eUniformBuffer, 1, stages}};
+    if (rayQuery) bindings.push_back({1, vk::DescriptorType::eAccelerationStructureKHR, 1, stages});
+    return {device, vk::DescriptorSetLayoutCreateInfo({}, bindings)};
+}
+
+vk::raii::PipelineLayout makePipelineLayout(const vk::raii::Device& device, const PassLayout& layout) {
+    const vk::DescriptorSetLayout sets[] = {*layout.volume, *layout.scene};
+    const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, PassLayout::kPushBytes);
+    return {device, vk::PipelineLayoutCreateInfo({}, sets, push)};
+}
+
+vk::raii::Sampler makeSampler(const vk::raii::Device& device) {
+    const auto edge = vk::SamplerAddressMode::eClampToEdge;
+    return {device, vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eNearest,
+                                          edge, edge, edge)};
+}
+
+}  // namespace
+
+PassLayout::PassLayout(const vk::raii::Device& device, bool rayQuery)
+    : sampler(makeSampler(device)),
+      volume(makeVolumeLayout(device)),
+      scene(makeSceneLayout(device, rayQuery)),
+      pipeline(makePipelineLayout(device, *this)) {}
+
+PipelineStore::PipelineStore(const vk::raii::PhysicalDevice& physical, const vk::raii::Device& device, bool rayQuery,
+                             std::filesystem::path folder, std::string& warning)
+    : m_device(device), m_layout(device, rayQuery), m_file(cacheFile(physical, folder)), m_cache(nullptr) {
+    std::vector<std::uint8_t> data = readCache(m_file, warning);
+    if (!data.empty() && !isOf(physical, data)) {
+        warning = sentence("the shader cache '", m_file.generic_string(),
+                           "' is of another driver and was ignored; it will be written anew");
+        data.clear();
+    }
+    m_savedSum = checksum(data);
+    m_cache = vk::raii::PipelineCache(device, vk::PipelineCacheCreateInfo({}, data.size(), data.data()));
+}
+
+vk::Pipeline PipelineStore::get(const std::string& shader, std::span<const std::uint32_t> constants) {
+    std::string key = shader;
+    for (const std::uint32_t constant : constants) key += sentence("/", constant);
+    if (const auto found = m_pipelines.find(key); found != m_pipelines.end()) return *found->second;
+
+    const std::span<const std::uint32_t> code = shaderCode(shader);
+    if (code.empty()) throw Failure(ErrorCode::unsupported, sentence("there is no shader '", shader, "'"));
+    const vk::raii::ShaderModule module(m_device, vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
+    std::vector<vk::SpecializationMapEntry> entries;
+    for (std::uint32_t i = 0; i < constants.size(); ++i) entries.emplace_back(i, 4 * i, sizeof(std::uint32_t));
+    const vk::SpecializationInfo values(std::uint32_t(entries.size()), entries.data(), constants.size_bytes(),
+                                        constants.data());
+    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main", &values);
+    vk::raii::Pipeline pipeline(m_device, m_cache, vk::ComputePipelineCreateInfo({}, stage, *m_layout.pipeline));
+    m_changed = true;
+    return *m_pipelines.emplace(std::move(key), std::move(pipeline)).first->second;
+}
+
+void PipelineStore::save() {
+    if (m_file.empty() || !m_changed) return;
+    const std::vector<std::uint8_t> body = m_cache.getData();
+    CacheHeader header;
+    header.bytes = body.size();
+    header.sum = checksum(body);
+    if (header.sum == m_savedSum) return;
+    std::error_code ignored;
+    std::filesystem::create_directories(m_file.parent_path(), ignored);
+    // A name of its own: several processes may end at once.
+    std::filesystem::path temporary = m_file;
+    temporary += sentence(".", hex(std::random_device()(), 8), ".tmp");
+    std::ofstream out(temporary, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(&header), sizeof(header));
+    out.write(reinterpret_cast<const char*>(body.data()), std::streamsize(body.size()));
+    out.close();
+    std::error_code error;
+    if (out) std::filesystem::rename(temporary, m_file, error);
+    if (!out || error) {
+        std::filesystem::remove(temporary, ignored);
+        throw Failure(ErrorCode::writeFailed,
+                      sentence("the shader cache '", m_file.generic_string(),
+                               "' could not be written; shaders will be compiled anew next time"));
+    }
+    m_changed = false;
+    m_savedSum = header.sum;
+}
+
+}  // namespace probegi::vulkan

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+
+#include "vulkan/device/vk.h"
+
+namespace probegi::vulkan {
+
+/// The one layout that all passes share. Set 0: a volume. Set 1: a scene. Push constants: what the pass's struct in
+/// kernels/abi/gpu_passes.h says, at most the 128 bytes that every device has.
+struct PassLayout {
+    PassLayout(const vk::raii::Device& device, bool rayQuery);
+
+    static constexpr std::uint32_t kPushBytes = 128;
+    vk::raii::Sampler sampler;  ///< of the atlases: linear, clamped
+    vk::raii::DescriptorSetLayout volume;
+    vk::raii::DescriptorSetLayout scene;
+    vk::raii::PipelineLayout pipeline;
+};
+
+/// Compute pipelines by the name of their shader, compiled when first asked for and kept in a file between runs.
+class PipelineStore {
+public:
+    /// `folder` may be empty. A damaged file is ignored (`warning` says so), as is one of another driver.
+    PipelineStore(const vk::raii::PhysicalDevice& physical, const vk::raii::Device& device, bool rayQuery,
+                  std::filesystem::path folder, std::string& warning);
+
+    const PassLayout& layout() const noexcept { return m_layout; }
+    /// `constants`: specialisation constants 0, 1, ... Throws.
+    vk::Pipeline get(const std::string& shader, std::span<const std::uint32_t> constants = {});
+    /// Writes the file where it would differ from what was read; whole or not at all. Throws Failure.
+    void save();
+
+private:
+    const vk::raii::Device& m_device;
+    PassLayout m_layout;
+    std::filesystem::path m_file;
+    vk::raii::PipelineCache m_cache;
+    std::map<std::string, vk::raii::Pipeline> m_pipelines;
+    bool m_changed = false;
+    std::uint64_t m_savedSum = 0;  // of what the file holds
+};
+
+}  // namespace probegi::vulkan

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <cstring>
+
+#include "vulkan/device/address.h"
+#include "vulkan/device/device_impl.h"
+#include "vulkan/device/memory.h"
+
+namespace probegi::vulkan {
+
+/// Records passes into a command buffer that someone else owns. All passes share PassLayout.
+class Recorder {
+public:
+    Recorder(const Device::Impl& device, VkCommandBuffer commands) : m_device(device), m_commands(commands) {}
+
+    void bindVolume(vk::DescriptorSet set) const { bind(0, set); }
+    void bindScene(vk::DescriptorSet set) const { bind(1, set); }
+
+    template <class Push>
+    void push(const Push& values) const {
+        static_assert(sizeof(Push) <= PassLayout::kPushBytes && sizeof(Push) % 4 == 0);
+        m_commands.pushConstants(*layout().pipeline, vk::ShaderStageFlagBits::eCompute, 0, sizeof(Push), &values,
+                                 dispatcher());
+    }
+
+    /// Runs a pass over a grid of work groups.
+    void dispatch(const std::string& shader, std::uint32_t x, std::uint32_t y = 1, std::uint32_t z = 1,
+                  std::span<const std::uint32_t> constants = {}) const {
+        m_commands.bindPipeline(vk::PipelineBindPoint::eCompute, m_device.pipelines->get(shader, constants),
+                                dispatcher());
+        m_commands.dispatch(x, y, z, dispatcher());
+    }
+    /// Runs a pass over `count` threads. More groups than one axis may have are spread over
+    /// two: shaders find their number with globalIndex() of shaders/common.glsl.
+    void dispatchOver(const std::string& shader, std::uint64_t count) const {
+        const std::uint64_t groups = (count + kGroupSize - 1) / kGroupSize;
+        const std::uint64_t rows = (groups + kGroupsPerRow - 1) / kGroupsPerRow;
+        if (groups) dispatch(shader, std::uint32_t(rows > 1 ? kGroupsPerRow : groups), std::uint32_t(rows));
+    }
+    /// Runs a pass over `blocks` times `columns` groups: x and z hold a group's block, y its column. Devices need not
+    /// take more than 65,535 groups along an axis, and blocks of probes may be more.
+    void dispatchOver(const std::string& shader, std::uint32_t blocks, std::uint32_t columns,
+                      std::span<const std::uint32_t> constants = {}) const {
+        const std::uint32_t rows = (blocks + kGroupsPerRow - 1) / kGroupsPerRow;
+        dispatch(shader, rows > 1 ? kGroupsPerRow : blocks, columns, rows, constants);
+    }
+
+    void copy(const Buffer& from, const Buffer& to, VkDeviceSize bytes) const {
+        if (bytes) m_commands.copyBuffer(from.handle(), to.handle(), vk::BufferCopy(0, 0, bytes), dispatcher());
+    }
+    void fill(const Buffer& buffer, std::uint32_t value) const {
+        m_commands.fillBuffer(buffer.handle(), 0, VK_WHOLE_SIZE, value, dispatcher());
+    }
+    /// Writes bytes from the command buffer itself, in pieces that vkCmdUpdateBuffer takes, `offset` bytes into the
+    /// buffer. Multiples of four bytes.
+    void write(const Buffer& buffer, std::span<const std::byte> bytes, std::size_t offset = 0) const {
+        constexpr std::size_t kPiece = 65536;
+        for (std::size_t at = 0; at < bytes.size(); at += kPiece)
+            m_commands.updateBuffer(buffer.handle(), offset + at, std::min(kPiece, bytes.size() - at),
+                                    bytes.data() + at, dispatcher());
+    }
+
+    /// Everything before is done and visible to everything after, whatever the stage. For the ends of updates and
+    /// uploads, of which a frame has few.
+    void orderAll() const {
+        const auto access = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite;
+        barrier(vk::PipelineStageFlagBits2::eAllCommands, access, vk::PipelineStageFlagBits2::eAllCommands, access);
+    }
+    void barrier(vk::PipelineStageFlags2 before, vk::AccessFlags2 written, vk::PipelineStageFlags2 after,
+                 vk::AccessFlags2 used) const {
+        const vk::MemoryBarrier2 memory(before, written, after, used);
+        m_commands.pipelineBarrier2(vk::DependencyInfo({}, memory), dispatcher());
+    }
+    /// Between two compute passes of which the second reads or overwrites what the first wrote or read.
+    void computeToCompute() const {
+        barrier(vk::PipelineStageFlagBits2::eComputeShader, kShaderAccess, vk::PipelineStageFlagBits2::eComputeShader,
+                kShaderAccess);
+    }
+    void transferToCompute() const {
+        barrier(vk::PipelineStageFlagBits2::eTransfer, vk::AccessFlagBits2::eTransferWrite,
+                vk::PipelineStageFlagBits2::eComputeShader, kShaderAccess | vk::AccessFlagBits2::eUniformRead);
+    }
+    void transferToHost() const {
+        barrier(vk::PipelineStageFlagBits2::eTransfer, vk::AccessFlagBits2::eTransferWrite,
+                vk::PipelineStageFlagBits2::eHost, vk::AccessFlagBits2::eHostRead);
+    }
+
+    vk::CommandBuffer commands() const noexcept { return m_commands; }
+    const vk::raii::DeviceDispatcher& dispatcher() const noexcept { return *m_device.device.getDispatcher(); }
+    const PassLayout& layout() const noexcept { return m_device.pipelines->layout(); }
+
+    static constexpr std::uint32_t kGroupSize = 64;  // of shaders/common.glsl
+    static constexpr std::uint32_t kGroupsPerRow = 32768;
+    static constexpr vk::AccessFlags2 kShaderAccess =
+        vk::AccessFlagBits2::eShaderRead | vk::AccessFlagBits2::eShaderWrite;
+
+private:
+    void bind(std::uint32_t number, vk::DescriptorSet set) const {
+        m_commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout().pipeline, number, set, {},
+                                      dispatcher());
+    }
+    const Device::Impl& m_device;
+    vk::CommandBuffer m_commands;
+};
+
+/// Encloses a pass with a timestamp pair and a debug label, where these are wanted and there.
+class PassScope {
+public:
+    PassScope(const Recorder& recorder, const Device::Impl& device, Profiler* profiler, const char* name);
+    ~PassScope();
+    PassScope(const PassScope&) = delete;
+    PassScope& operator=(const PassScope&) = delete;
+
+private:
+    const Recorder& m_recorder;
+    const Device::Impl& m_device;
+    Profiler* m_profiler;
+};
+
+template <class T>
+std::span<const std::byte> bytesOf(const T& value) {
+    return {reinterpret_cast<const std::byte*>(&value), sizeof(T)};
+}
+
+}  // namespace probegi::vulkan

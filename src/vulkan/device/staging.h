@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "vulkan/device/recorder.h"
+
+namespace probegi::vulkan {
+
+/// The error of an upload that is recorded too late.
+inline constexpr const char* kNothingToUpload =
+    "the upload was recorded after releaseStaging(), when there is nothing left to copy; record it once, before";
+
+/// Bytes on their way to buffers: collected, copied into one upload buffer, recorded as copies, released.
+class Staging {
+public:
+    /// A new device buffer for the bytes. `bytes` must stay until fill(). Throws.
+    template <class T>
+    Buffer add(const Device::Impl& device, const char* name, const std::vector<T>& values,
+               vk::BufferUsageFlags usage = kAddressed) {
+        Buffer buffer(device, name, values.size() * sizeof(T), usage);
+        m_copies.push_back({buffer.handle(), std::as_bytes(std::span(values)), m_bytes});
+        m_bytes += (values.size() * sizeof(T) + 15) / 16 * 16;
+        return buffer;
+    }
+    /// Allocates the upload buffer and copies everything into it. Throws.
+    void fill(const Device::Impl& device);
+    void record(const Recorder& recorder) const;
+    void release() noexcept { *this = Staging(); }
+    /// Nothing is left to record, or nothing was ever added.
+    bool released() const noexcept { return m_copies.empty(); }
+
+private:
+    struct Copy {
+        vk::Buffer to;
+        std::span<const std::byte> bytes;
+        std::size_t offset;
+    };
+    std::vector<Copy> m_copies;
+    std::size_t m_bytes = 0;
+    Buffer m_upload;
+};
+
+}  // namespace probegi::vulkan

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <mutex>
+#include <optional>
+
+#include "field/field_backend.h"
+#include "kernels/light/emitter_sampling.h"
+#include "vulkan/device/exchange.h"
+#include "vulkan/field/volume_mirror.h"
+#include "vulkan/tracers/gpu_tracer.h"
+
+namespace probegi::vulkan {
+
+/// A field whose probes and passes are on the GPU. Every call records, submits and waits.
+class GpuField final : public FieldBackend {
+public:
+    /// The desc must be valid. Throws.
+    GpuField(const Context& context, const Device& device, const FieldDesc& desc);
+
+    Result<UpdateTimes> update(const UpdateFrame& frame, std::span<const RayDatum> rayData,
+                               std::span<const FixedRayDatum> fixedRays) override;
+    Result<UpdateTimes> update(const UpdateFrame& frame, const Tracer& tracer, const Lighting& lighting) override;
+    Result<void> irradiance(const FieldDesc& desc, std::span<const FieldQuery> queries,
+                            std::span<glm::vec3> out) const override;
+    glm::vec3 irradiance(const FieldDesc& desc, const FieldQuery& query) const noexcept override;
+    Result<std::vector<float>> brightness() const override;
+
+    FieldMemory memory() const noexcept override;
+    std::uint64_t fallbackQueries() const noexcept override;
+    float probeBackfaceShare(int probe) const noexcept override;
+    glm::vec3 probeIrradiance(int probe, glm::vec3 normal) const noexcept override;
+    glm::vec2 probeDistanceMoments(int probe, glm::vec3 direction) const noexcept override;
+
+    const Device& device() const noexcept { return m_device; }
+    VolumePasses& passes() const noexcept { return m_passes; }
+    std::vector<PassTime> passTimes() const;
+
+private:
+    /// The lighting in GPU memory, uploaded again only where it changed. Throws.
+    const GpuLighting& uploaded(const Lighting& lighting) const;
+    UpdateTimes updateOnGpu(const UpdateFrame& frame, const GpuTracer& tracer, const Lighting& lighting);
+    UpdateTimes updateFrom(const UpdateFrame& frame, std::span<const RayDatum> rayData,
+                           std::span<const FixedRayDatum> fixedRays, std::span<const kernels::EmitterLight> lights);
+    /// guarded(), for passes over the volume.
+    template <class Body>
+    auto attempted(const char* doing, const Body& body) const;
+    /// Calls `read` with an up-to-date mirror; not a number where the GPU fails.
+    template <class T, class Read>
+    T mirrored(const T& failed, const Read& read) const noexcept;
+
+    Context m_context;
+    Device m_device;
+    mutable std::mutex m_mutex;  // queries may come from several threads
+    mutable VolumePasses m_passes;
+    mutable Exchange m_exchange;
+    mutable std::optional<Profiler> m_profiler;
+    mutable std::optional<VolumeMirror> m_mirror;  // empty: out of date
+    mutable std::optional<Lighting> m_lightingSource;
+    mutable std::optional<GpuLighting> m_lighting;
+    std::vector<RayDatum> m_rayData;         // of rays that another backend's tracer traced
+    std::vector<FixedRayDatum> m_fixedRays;  // the same
+    std::vector<kernels::EmitterLight> m_emitterLights;
+    std::vector<PassTime> m_updatePasses;
+    mutable std::vector<PassTime> m_queryPasses;
+};
+
+}  // namespace probegi::vulkan

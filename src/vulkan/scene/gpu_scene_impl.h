@@ -1,0 +1,39 @@
+#pragma once
+
+#include "geometry/emitters.h"
+#include "vulkan/tracers/scene_tracer.h"
+
+namespace probegi::vulkan {
+
+struct GpuScene::Impl {
+    Impl(const Context& context, const Device& device, const Scene& scene, const ScenePose& pose,
+         const GpuSceneDesc& desc);
+
+    vk::DescriptorSet set() const noexcept { return *sets.front(); }
+    std::string shaderSuffix() const { return tracer->shaderSuffix(); }
+    kernels::SceneConstants constants() const;
+    Bounds placedBounds() const;  // where the placements are now
+    bool placeEmitters();         // where the placements are now; returns whether any lamp is among them
+
+    Device device;
+    std::vector<Placement> placements;
+    Bounds bounds;
+    Bounds worldBounds;  // of what is merged; meaningless without hasWorld
+    bool hasWorld = false;
+    std::vector<Bounds> groupBounds;  // in their own spaces
+    EmitterGeometry emitterGeometry;
+    EmitterSet emitters;  // where they are now
+    Buffer vertices, triangles, uv1, tangents, meshes, instances, materials, textures, texels, srgbTable, emitterBuffer;
+    Buffer constantsBuffer;
+    std::unique_ptr<SceneTracer> tracer;
+    vk::raii::DescriptorPool pool{nullptr};
+    vk::raii::DescriptorSets sets{nullptr};
+    Staging staging;
+    SceneData data;  // what staging points to; emptied with it
+
+private:
+    void upload();
+    void writeSet();
+};
+
+}  // namespace probegi::vulkan

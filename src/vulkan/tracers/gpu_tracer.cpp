@@ -1,0 +1,138 @@
+#include "vulkan/tracers/gpu_tracer.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "kernels/abi/gpu_passes.h"
+#include "vulkan/scene/gpu_scene_impl.h"
+
+namespace probegi::vulkan {
+
+namespace {
+
+static_assert(sizeof(Ray) == 32 && offsetof(Ray, direction) == 16, "shaders/types.glsl");
+static_assert(sizeof(Hit) == 24 && offsetof(Hit, barycentric) == 16, "shaders/types.glsl");
+
+constexpr std::size_t kRaysPerPiece = std::size_t(1) << 20;
+
+GpuScene uploaded(const Context& context, const Device& device, const Scene& scene, const ScenePose& pose,
+                  const GpuSceneDesc& desc) {
+    GpuScene result = orThrow(GpuScene::create(context, device, scene, pose, desc));
+    submitAndWait(device, [&](const Recorder& recorder) { orThrow(result.recordUpload(recorder.commands())); });
+    result.releaseStaging();
+    return result;
+}
+
+Surface surfaceOf(const kernels::GpuSurface& s) {
+    Surface surface;
+    surface.position = s.position;
+    surface.geometricNormal = s.geometricNormal;
+    surface.shadingNormal = s.shadingNormal;
+    surface.albedo = s.albedo;
+    surface.emission = s.emission;
+    surface.metallic = s.metallic;
+    surface.roughness = s.roughness;
+    surface.material = s.material;
+    surface.back = s.side != kernels::kSideFront;
+    surface.backface = s.side == kernels::kSideBackface;
+    return surface;
+}
+
+// Calls piece(first, count) over 0..count.
+template <class Piece>
+Result<void> inPieces(std::size_t count, const Piece& piece) {
+    return guarded("tracing rays", [&] {
+        for (std::size_t first = 0; first < count; first += kRaysPerPiece)
+            piece(first, std::min(kRaysPerPiece, count - first));
+    });
+}
+
+}  // namespace
+
+GpuTracer::GpuTracer(const Context& context, const Device& device, const Scene& scene, const ScenePose& pose,
+                     const GpuSceneDesc& desc)
+    : m_device(device), m_scene(uploaded(context, device, scene, pose, desc)), m_exchange(device) {}
+
+const EmitterSet* GpuTracer::emitters() const {
+    return &m_scene.impl().emitters;
+}
+
+Result<void> GpuTracer::closestHits(std::span<const Ray> rays, std::span<Hit> hits) const {
+    assert(rays.size() == hits.size());
+    const std::lock_guard lock(m_mutex);
+    return inPieces(rays.size(), [&](std::size_t first, std::size_t count) {
+        m_exchange.begin(count * sizeof(Ray), count * sizeof(Hit));
+        kernels::RaysPush push{.rays = packAddress(m_exchange.add(rays.subspan(first, count))),
+                               .hits = packAddress(m_exchange.out()),
+                               .results = {},
+                               .count = std::uint32_t(count),
+                               .spread = 0};
+        m_exchange.run(
+            [&](const Recorder& recorder) {
+                recorder.bindScene(m_scene.impl().set());
+                recorder.push(push);
+                recorder.dispatchOver("trace_rays" + m_scene.impl().shaderSuffix(), count);
+            },
+            count * sizeof(Hit));
+        std::copy_n(m_exchange.results<Hit>().begin(), count, hits.begin() + std::ptrdiff_t(first));
+    });
+}
+
+Result<void> GpuTracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
+    assert(rays.size() == blocked.size());
+    const std::lock_guard lock(m_mutex);
+    return inPieces(rays.size(), [&](std::size_t first, std::size_t count) {
+        m_exchange.begin(count * sizeof(Ray), count * sizeof(std::uint32_t));
+        kernels::RaysPush push{.rays = packAddress(m_exchange.add(rays.subspan(first, count))),
+                               .hits = {},
+                               .results = packAddress(m_exchange.out()),
+                               .count = std::uint32_t(count),
+                               .spread = 0};
+        m_exchange.run(
+            [&](const Recorder& recorder) {
+                recorder.bindScene(m_scene.impl().set());
+                recorder.push(push);
+                recorder.dispatchOver("trace_occlusion" + m_scene.impl().shaderSuffix(), count);
+            },
+            count * sizeof(std::uint32_t));
+        const auto results = m_exchange.results<std::uint32_t>();
+        for (std::size_t i = 0; i < count; ++i) blocked[first + i] = std::uint8_t(results[i]);
+    });
+}
+
+Result<void> GpuTracer::surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const {
+    return filteredSurfaces(rays, hits, 0.0f, out);
+}
+
+Result<void> GpuTracer::filteredSurfaces(std::span<const Ray> rays, std::span<const Hit> hits, float spread,
+                                         std::span<Surface> out) const {
+    assert(rays.size() == hits.size() && rays.size() == out.size());
+    const std::lock_guard lock(m_mutex);
+    return inPieces(rays.size(), [&](std::size_t first, std::size_t count) {
+        m_exchange.begin(count * (sizeof(Ray) + sizeof(Hit)), count * sizeof(kernels::GpuSurface));
+        kernels::RaysPush push{.rays = packAddress(m_exchange.add(rays.subspan(first, count))),
+                               .hits = packAddress(m_exchange.add(hits.subspan(first, count))),
+                               .results = packAddress(m_exchange.out()),
+                               .count = std::uint32_t(count),
+                               .spread = spread};
+        m_exchange.run(
+            [&](const Recorder& recorder) {
+                recorder.bindScene(m_scene.impl().set());
+                recorder.push(push);
+                recorder.dispatchOver("surfaces", count);
+            },
+            count * sizeof(kernels::GpuSurface));
+        const auto results = m_exchange.results<kernels::GpuSurface>();
+        for (std::size_t i = 0; i < count; ++i)
+            if (hits[first + i].valid()) out[first + i] = surfaceOf(results[i]);
+    });
+}
+
+Result<std::unique_ptr<Tracer>> makeTracer(const Context& context, const Device& device, const Scene& scene,
+                                           const ScenePose& pose, const GpuSceneDesc& desc) {
+    return guarded("uploading the scene", [&] {
+        return std::unique_ptr<Tracer>(std::make_unique<GpuTracer>(context, device, scene, pose, desc));
+    });
+}
+
+}  // namespace probegi::vulkan

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <mutex>
+
+#include "probegi/vulkan.h"
+#include "vulkan/device/exchange.h"
+
+namespace probegi::vulkan {
+
+/// A scene in GPU memory as a Tracer. Batches are cut into pieces, so that memory for them stays bounded.
+class GpuTracer final : public Tracer {
+public:
+    /// Uploads and waits. Throws.
+    GpuTracer(const Context& context, const Device& device, const Scene& scene, const ScenePose& pose,
+              const GpuSceneDesc& desc);
+
+    Result<void> closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override;
+    Result<void> occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override;
+    Result<void> surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const override;
+    Result<void> filteredSurfaces(std::span<const Ray> rays, std::span<const Hit> hits, float spread,
+                                  std::span<Surface> out) const override;
+    Bounds bounds() const override { return m_scene.bounds(); }
+    const EmitterSet* emitters() const override;
+
+    const Device& device() const noexcept { return m_device; }
+    const GpuScene& scene() const noexcept { return m_scene; }
+
+private:
+    Device m_device;
+    GpuScene m_scene;
+    mutable std::mutex m_mutex;
+    mutable Exchange m_exchange;
+};
+
+}  // namespace probegi::vulkan

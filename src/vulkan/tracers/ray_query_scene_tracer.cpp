@@ -1,0 +1,147 @@
+#include "vulkan/tracers/acceleration_structure.h"
+#include "vulkan/tracers/scene_tracer.h"
+
+namespace probegi::vulkan {
+
+namespace {
+
+constexpr auto kTriangleFlags = vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace;
+constexpr auto kInstanceFlags = vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace |
+                                vk::BuildAccelerationStructureFlagBitsKHR::eAllowUpdate;
+constexpr vk::BufferUsageFlags kBuildInput = vk::BufferUsageFlagBits::eAccelerationStructureBuildInputReadOnlyKHR |
+                                             vk::BufferUsageFlagBits::eShaderDeviceAddress |
+                                             vk::BufferUsageFlagBits::eTransferDst;
+
+VkTransformMatrixKHR rowsOf(const glm::mat4& m) {
+    VkTransformMatrixKHR rows;
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column) rows.matrix[row][column] = m[column][row];
+    return rows;
+}
+
+/// A bottom level for the world and for each group, in the order of SceneData::meshes, each with its opaque and its
+/// masked mesh as geometries 0 and 1; a top level with the world and the placements. Custom indices: 0 for the world,
+/// placement + 1.
+class RayQuerySceneTracer final : public SceneTracer {
+public:
+    RayQuerySceneTracer(const Device& device, const SceneGeometry& geometry, const SceneData& data,
+                        VkDeviceAddress vertices)
+        : m_device(device) {
+        packIndices(data);
+        for (std::size_t group = 0; group <= geometry.groups.size(); ++group)
+            m_groups.push_back(makeGroup(data, group, vertices));
+        m_instances = instancesOf(geometry.placements);
+        m_instanceBuffer = Buffer(device.impl(), "placements to trace",
+                                  m_instances.size() * sizeof(VkAccelerationStructureInstanceKHR), kBuildInput);
+        makeTop();
+        m_staging.fill(device.impl());
+    }
+
+    TracerKind kind() const noexcept override { return TracerKind::rayQuery; }
+    const char* shaderSuffix() const noexcept override { return "_ray_query"; }
+
+    void recordBuild(const Recorder& recorder) override {
+        m_staging.record(recorder);
+        recorder.write(m_instanceBuffer, std::as_bytes(std::span(m_instances)));
+        recorder.orderAll();
+        for (const AccelerationStructure& group : m_groups) group.recordBuild(recorder);
+        recorder.orderAll();
+        m_top.recordBuild(recorder);
+        recorder.orderAll();
+    }
+
+    void recordPlacements(const Recorder& recorder, const std::vector<Placement>& placements) override {
+        m_instances = instancesOf(placements);
+        recorder.write(m_instanceBuffer, std::as_bytes(std::span(m_instances)));
+        recorder.orderAll();
+        m_top.recordBuild(recorder, true);
+        recorder.orderAll();
+    }
+
+    void releaseStaging() noexcept override {
+        m_staging.release();
+        m_indexBuffer = Buffer();
+        m_indices = {};
+        for (AccelerationStructure& group : m_groups) group.releaseScratch();
+    }
+
+    std::size_t bytes() const noexcept override {
+        std::size_t sum = m_top.bytes() + m_instanceBuffer.bytes() + m_indexBuffer.bytes();
+        for (const AccelerationStructure& group : m_groups) sum += group.bytes();
+        return sum;
+    }
+    vk::AccelerationStructureKHR topLevel() const noexcept override { return m_top.handle(); }
+
+private:
+    // Builds want three indices a triangle and nothing between them.
+    void packIndices(const SceneData& data) {
+        m_indices.reserve(3 * data.triangles.size());
+        for (const kernels::GpuTriangle& t : data.triangles)
+            m_indices.insert(m_indices.end(), {t.vertex.x, t.vertex.y, t.vertex.z});
+        m_indexBuffer = m_staging.add(m_device.impl(), "indices to trace", m_indices, kBuildInput);
+    }
+
+    AccelerationStructure makeGroup(const SceneData& data, std::size_t group, VkDeviceAddress vertices) const {
+        AccelerationStructure::Geometries geometries;
+        AccelerationStructure::Ranges ranges;
+        for (std::size_t geometry = 0; geometry < 2; ++geometry) {
+            const std::size_t index = 2 * group + geometry;
+            const kernels::GpuMesh& mesh = data.meshes[index];
+            const std::size_t end =
+                index + 1 < data.meshes.size() ? data.meshes[index + 1].firstVertex : data.vertices.size();
+            const auto highest = std::uint32_t(std::max<std::size_t>(end, mesh.firstVertex + 1) - mesh.firstVertex - 1);
+            // A mesh without triangles may begin where the buffers end: its addresses would be somebody else's.
+            const std::uint64_t vertex = mesh.triangleCount ? mesh.firstVertex : 0;
+            const std::uint64_t triangle = mesh.triangleCount ? mesh.firstTriangle : 0;
+            const vk::AccelerationStructureGeometryTrianglesDataKHR triangles(
+                vk::Format::eR32G32B32Sfloat, vertices + vertex * sizeof(kernels::GpuVertex),
+                sizeof(kernels::GpuVertex), highest, vk::IndexType::eUint32, m_indexBuffer.address() + 12 * triangle);
+            geometries.push_back({vk::GeometryTypeKHR::eTriangles, triangles,
+                                  geometry == 0 ? vk::GeometryFlagBitsKHR::eOpaque : vk::GeometryFlagsKHR()});
+            ranges.emplace_back(mesh.triangleCount);
+        }
+        return {m_device.impl(), "triangles to trace",  vk::AccelerationStructureTypeKHR::eBottomLevel,
+                kTriangleFlags,  std::move(geometries), std::move(ranges)};
+    }
+
+    void makeTop() {
+        const vk::AccelerationStructureGeometryInstancesDataKHR instances(false, m_instanceBuffer.address());
+        m_top = AccelerationStructure(
+            m_device.impl(), "scene to trace", vk::AccelerationStructureTypeKHR::eTopLevel, kInstanceFlags,
+            {vk::AccelerationStructureGeometryKHR(vk::GeometryTypeKHR::eInstances, instances)},
+            {vk::AccelerationStructureBuildRangeInfoKHR(std::uint32_t(m_instances.size()))});
+    }
+
+    std::vector<VkAccelerationStructureInstanceKHR> instancesOf(const std::vector<Placement>& placements) const {
+        const auto instance = [&](const glm::mat4& toWorld, std::size_t number, std::size_t group) {
+            VkAccelerationStructureInstanceKHR result{};
+            const bool solid = invertible(toWorld);
+            result.transform = rowsOf(solid ? toWorld : glm::mat4(1.0f));
+            result.instanceCustomIndex = std::uint32_t(number) & 0xffffffu;
+            result.mask = solid ? 0xffu : 0u;
+            result.accelerationStructureReference = m_groups[group].address();
+            return result;
+        };
+        std::vector<VkAccelerationStructureInstanceKHR> result{instance(glm::mat4(1.0f), 0, 0)};
+        for (const Placement& p : placements)
+            result.push_back(instance(p.toWorld, result.size(), std::size_t(p.group) + 1));
+        return result;
+    }
+
+    Device m_device;
+    Staging m_staging;
+    std::vector<std::uint32_t> m_indices;
+    std::vector<VkAccelerationStructureInstanceKHR> m_instances;
+    Buffer m_indexBuffer, m_instanceBuffer;
+    std::vector<AccelerationStructure> m_groups;
+    AccelerationStructure m_top;
+};
+
+}  // namespace
+
+std::unique_ptr<SceneTracer> makeRayQuerySceneTracer(const Device& device, const SceneGeometry& geometry,
+                                                     const SceneData& data, VkDeviceAddress vertices) {
+    return std::make_unique<RayQuerySceneTracer>(device, geometry, data, vertices);
+}
+
+}  // namespace probegi::vulkan
