@@ -1,0 +1,35 @@
+// What shaders that read a field know of it: the uniform block of query.glsl. One struct for C++ and GLSL, scalar
+// layout.
+#ifndef PROBEGI_KERNELS_FIELD_CONSTANTS_H
+#define PROBEGI_KERNELS_FIELD_CONSTANTS_H
+
+#include "kernels/volume/pool.h"
+#include "kernels/volume/volume.h"
+
+KERNELS_BEGIN
+
+// The most volumes of a field.
+KERNEL_CONST int kMostVolumes = 32;
+
+struct FieldConstants {
+    int volumeCount;
+    int guard;
+    int rules;             // of the query, kRulesMeasured or kRulesPaper (kernels/lookup/probe_query.h)
+    float selfShadowBias;  // FieldSettings'
+    int irradianceTexels;  // side of a map without border
+    int visibilityTexels;
+    PoolTiles tiles;
+    vec2 irradianceTexelSize;  // of the atlas, in texture coordinates
+    vec2 visibilityTexelSize;
+    Volume volumes[kMostVolumes];
+};
+
+KERNELS_END
+
+#ifdef __cplusplus
+namespace probegi::kernels {
+static_assert(offsetof(FieldConstants, tiles) == 24 && offsetof(FieldConstants, volumes) == 48);
+}  // namespace probegi::kernels
+#endif
+
+#endif
