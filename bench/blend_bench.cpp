@@ -21,10 +21,10 @@ benchmark::Counter perProbe(const RoomField& field, const benchmark::State& stat
 void blendAll(benchmark::State& state) {
     RoomField field(LeakGuard::moments, kCounts, int(state.range(0)));
     BlendWeights weights;
-    makeBlendWeights(field.context(), field.desc(), field.directions(), weights);
+    makeBlendWeights(field.context(), field.desc(), field.settings().visibilityExponent, field.directions(), weights);
     for (auto _ : state) {
-        blendProbes(field.context(), field.desc(), field.layout(), weights, field.rayData(), {{0.97f, 0.97f}},
-                    field.storage());
+        blendProbes(field.context(), field.desc(), field.settings(), weights, field.rayData(),
+                    {field.tasks(), {0.97f, 0.97f}}, field.storage());
         benchmark::ClobberMemory();
     }
     state.counters["a probe"] = perProbe(field, state);
@@ -35,7 +35,8 @@ void frameWeights(benchmark::State& state) {
     RoomField field(LeakGuard::moments, {2, 2, 2}, int(state.range(0)));
     BlendWeights weights;
     for (auto _ : state) {
-        makeBlendWeights(field.context(), field.desc(), field.directions(), weights);
+        makeBlendWeights(field.context(), field.desc(), field.settings().visibilityExponent, field.directions(),
+                         weights);
         benchmark::ClobberMemory();
     }
 }
@@ -45,7 +46,7 @@ void products(benchmark::State& state) {
     constexpr std::size_t kProbes = 32;
     RoomField field(LeakGuard::moments, {2, 2, 2}, int(state.range(0)));
     BlendWeights weights;
-    makeBlendWeights(field.context(), field.desc(), field.directions(), weights);
+    makeBlendWeights(field.context(), field.desc(), field.settings().visibilityExponent, field.directions(), weights);
     Matrix radiance, distance, irradiance, visibility;
     radiance.resize(3 * kProbes, field.layout().rays);
     distance.resize(2 * kProbes, field.layout().rays);
@@ -90,7 +91,7 @@ void directLoop(benchmark::State& state) {
     std::vector<glm::vec2> visibility(field.layout().visibilityTexels);
     const auto cosine = [](glm::vec3 n, glm::vec3 w) { return kernels::irradianceWeight(n, w); };
     const auto power = [&](glm::vec3 n, glm::vec3 w) {
-        return kernels::visibilityWeight(n, w, desc.visibilityExponent);
+        return kernels::visibilityWeight(n, w, field.settings().visibilityExponent);
     };
     for (auto _ : state)
         for (std::size_t probe = 0; probe < field.layout().probes; ++probe) {

@@ -35,13 +35,12 @@ RayDatum datum(glm::vec3 origin, glm::vec3 direction) {
     return {white * (0.1f + std::abs(direction.x)), hit.distance};
 }
 
-FieldDesc makeDesc(LeakGuard guard, glm::ivec3 counts, int raysPerProbe) {
+FieldDesc makeDesc(glm::ivec3 counts, int raysPerProbe) {
     FieldDesc desc;
-    desc.grid.counts = counts;
-    desc.grid.spacing = glm::vec3(1.9f * kWall) / glm::vec3(counts - 1);
-    desc.grid.origin = glm::vec3(-0.95f * kWall);
+    desc.volumes[0].counts = counts;
+    desc.volumes[0].spacing = glm::vec3(1.9f * kWall) / glm::vec3(counts - 1);
+    desc.volumes[0].origin = glm::vec3(-0.95f * kWall);
     desc.raysPerProbe = raysPerProbe;
-    desc.guard = guard;
     return desc;
 }
 
@@ -49,33 +48,33 @@ FieldDesc makeDesc(LeakGuard guard, glm::ivec3 counts, int raysPerProbe) {
 
 RoomField::RoomField(LeakGuard guard, glm::ivec3 counts, int raysPerProbe)
     : m_context(*Context::create({.threads = 1})),
-      m_desc(makeDesc(guard, counts, raysPerProbe)),
+      m_desc(makeDesc(counts, raysPerProbe)),
+      m_settings{.guard = guard},
+      m_control(makeFieldControl(m_desc, m_settings)),
+      m_volumes(makeVolumes(m_desc)),
       m_layout(m_desc),
       m_storage(m_layout),
       m_irradianceTaps(makeTapTable(m_desc.irradianceTexels)),
       m_visibilityTaps(makeTapTable(m_desc.visibilityTexels)) {
     for (std::uint32_t i = 0; i < m_layout.rays; ++i)
         m_directions.push_back(kernels::sphericalFibonacci(i, std::uint32_t(m_layout.rays)));
-    for (std::size_t probe = 0; probe < m_layout.probes; ++probe)
-        for (const glm::vec3& direction : m_directions)
-            m_rayData.push_back(datum(probePosition(m_desc.grid, int(probe)), direction));
+    for (const ProbeTask& task : tasks())
+        for (const glm::vec3& direction : m_directions) m_rayData.push_back(datum(task.origin, direction));
     BlendWeights weights;
-    makeBlendWeights(m_context, m_desc, m_directions, weights);
-    blendProbes(m_context, m_desc, m_layout, weights, m_rayData, {{0.0f, 0.0f}}, m_storage);
+    makeBlendWeights(m_context, m_desc, m_settings.visibilityExponent, m_directions, weights);
+    blendProbes(m_context, m_desc, m_settings, weights, m_rayData, {tasks(), {0.0f, 0.0f}}, m_storage);
 }
 
 FieldView RoomField::view() const {
     FieldView view;
     view.desc = &m_desc;
+    view.settings = &m_settings;
+    view.volumes = m_volumes;
     view.irradiance = m_storage.irradiance.data();
     view.visibility = m_storage.visibility.data();
     view.backfaceShare = m_storage.backfaceShare.data();
     view.irradianceTaps = &m_irradianceTaps;
     view.visibilityTaps = &m_visibilityTaps;
-    const glm::vec3& s = m_desc.grid.spacing;
-    view.inverseSpacing = 1.0f / s;
-    view.minSpacing = std::min({s.x, s.y, s.z});
-    view.inverseMaxDistance = 1.0f / m_layout.maxDistance;
     return view;
 }
 

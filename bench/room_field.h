@@ -4,6 +4,7 @@
 
 #include "cpu/probe_blend.h"
 #include "cpu/probe_query.h"
+#include "field/control_impl.h"
 
 namespace probegi::bench {
 
@@ -16,6 +17,8 @@ public:
     FieldView view() const;
     const Context& context() const { return m_context; }
     const FieldDesc& desc() const { return m_desc; }
+    const FieldSettings& settings() const { return m_settings; }
+    std::span<const ProbeTask> tasks() const { return m_control.tasks(); }
     const FieldLayout& layout() const { return m_layout; }
     std::span<const glm::vec3> directions() const { return m_directions; }
     std::span<const RayDatum> rayData() const { return m_rayData; }
@@ -27,6 +30,9 @@ public:
 private:
     Context m_context;
     FieldDesc m_desc;
+    FieldSettings m_settings;
+    FieldControl m_control;
+    std::vector<kernels::Volume> m_volumes;
     FieldLayout m_layout;
     FieldStorage m_storage;
     TapTable m_irradianceTaps, m_visibilityTaps;

@@ -31,7 +31,7 @@ Footprint footprintOf(const TapTable& table, int size, glm::vec3 direction) {
 // One query, and what all its probes share.
 struct Question {
     const FieldView& view;
-    const GridDesc& grid;
+    const VolumeDesc& grid;
     int rules;
     glm::vec3 position, normal, bias;
     glm::ivec3 base;
@@ -155,7 +155,7 @@ glm::vec3 neighbours(const Question& q) {
 }
 
 glm::vec3 queryOne(const FieldView& view, const FieldQuery& query) {
-    const GridDesc& grid = view.desc->grid;
+    const VolumeDesc& grid = view.desc->grid;
     const int rules = view.desc->rules == FieldRules::paper ? kernels::kRulesPaper : kernels::kRulesMeasured;
     const float scale = view.desc->selfShadowBias;
     const glm::vec3 position = kernels::clampToGrid(query.position, grid.origin, grid.spacing, grid.counts);

@@ -14,7 +14,7 @@ constexpr std::size_t kBatch = 1152;  // as the update's tasks
 struct Atrium {
     Atrium() {
         tracer = *makeEmbreeTracer(*Context::create({.threads = 2}), scene, pose);
-        const GridDesc grid = *placeGrid(pose.bounds, {{12, 8, 12}});
+        const VolumeDesc grid = *placeVolume(pose.bounds, {{12, 8, 12}});
         for (int probe = 0; probe < probeCount(grid); ++probe)
             for (std::uint32_t i = 0; i < 144; ++i)
                 rays.push_back({probePosition(grid, probe), 0.0f, kernels::sphericalFibonacci(i, 144)});

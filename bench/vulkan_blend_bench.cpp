@@ -26,15 +26,13 @@ void recordDirect(const Recorder& recorder, VulkanRoom& room, const BenchPass& p
     DirectPush push{};
     push.blend.rayData = packAddress(room.rayData());
     push.blend.rays = int(layout.rays);
-    push.blend.probes = int(layout.probes);
-    push.blend.maxDistance = layout.maxDistance;
     push.blend.irradianceHysteresis = frame.hysteresis.irradiance;
     push.blend.visibilityHysteresis = frame.hysteresis.visibility;
-    push.blend.significantChange = frame.desc.significantChange;
-    push.blend.newDistribution = frame.desc.newDistribution;
+    push.blend.significantChange = frame.settings.significantChange;
+    push.blend.newDistribution = frame.settings.newDistribution;
     push.blend.ditherSeed = frame.ditherSeed;
     push.directions = packAddress(room.directions());
-    push.visibilityExponent = frame.desc.visibilityExponent;
+    push.visibilityExponent = frame.settings.visibilityExponent;
     recorder.push(push);
     pass.record(recorder, layout.probes * (layout.irradianceTexels + layout.visibilityTexels));
 }
@@ -44,8 +42,8 @@ struct Difference {
     float irradiance = 0, visibility = 0;
 };
 
-Difference differenceOf(const VolumePasses& a, const VolumePasses& b) {
-    const VolumeMirror one(a), other(b);
+Difference differenceOf(const FieldPasses& a, const FieldPasses& b) {
+    const FieldMirror one(a), other(b);
     Difference worst;
     for (int probe = 0; probe < int(a.layout().probes); ++probe) {
         const int irradiance = a.desc().irradianceTexels, visibility = a.desc().visibilityTexels;

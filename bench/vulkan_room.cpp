@@ -24,11 +24,9 @@ BenchPass::BenchPass(const Device& device, std::span<const std::uint32_t> spirv)
     : m_pipeline(makePipeline(device, spirv)) {}
 
 void BenchPass::record(const Recorder& recorder, std::uint64_t count) const {
-    const std::uint64_t groups = (count + Recorder::kGroupSize - 1) / Recorder::kGroupSize;
-    const std::uint64_t rows = (groups + Recorder::kGroupsPerRow - 1) / Recorder::kGroupsPerRow;
+    const kernels::uvec3 groups = kernels::threadGroups(std::uint32_t(count));
     recorder.commands().bindPipeline(vk::PipelineBindPoint::eCompute, *m_pipeline, recorder.dispatcher());
-    recorder.commands().dispatch(std::uint32_t(rows > 1 ? Recorder::kGroupsPerRow : groups), std::uint32_t(rows), 1,
-                                 recorder.dispatcher());
+    recorder.commands().dispatch(groups.x, groups.y, 1, recorder.dispatcher());
 }
 
 VulkanRoom::VulkanRoom(const RoomField& room, std::span<const RayDatum> rayData)
@@ -44,12 +42,17 @@ VulkanRoom::VulkanRoom(const RoomField& room, std::span<const RayDatum> rayData)
     staging.fill(m_device.impl());
     submitAndWait(m_device, [&](const Recorder& recorder) {
         staging.record(recorder);
-        m_volume.recordClear(recorder, m_volume.desc().guard);
+        m_volume.recordClear(recorder, m_room.settings());
     });
 }
 
 UpdateFrame VulkanRoom::frame() const {
-    return {.desc = m_room.desc(), .directions = m_room.directions(), .hysteresis = {0.5f, 0.5f}, .ditherSeed = 7};
+    return {.desc = m_room.desc(),
+            .settings = m_room.settings(),
+            .tasks = m_room.tasks(),
+            .directions = m_room.directions(),
+            .hysteresis = {0.5f, 0.5f},
+            .ditherSeed = 7};
 }
 
 std::vector<PassTime> VulkanRoom::run(const std::function<void(const Recorder&, Profiler&)>& passes) {
@@ -62,7 +65,7 @@ std::vector<PassTime> VulkanRoom::run(const std::function<void(const Recorder&, 
 }
 
 void VulkanRoom::clear() {
-    submitAndWait(m_device, [&](const Recorder& recorder) { m_volume.recordClear(recorder, m_volume.desc().guard); });
+    submitAndWait(m_device, [&](const Recorder& recorder) { m_volume.recordClear(recorder, m_room.settings()); });
 }
 
 std::vector<PassTime> VulkanRoom::update() {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "room_field.h"
-#include "vulkan/field/probe_volume_impl.h"
-#include "vulkan/field/volume_mirror.h"
+#include "vulkan/field/field_mirror.h"
+#include "vulkan/field/gpu_field_impl.h"
 
 namespace probegi::bench {
 
@@ -30,7 +30,7 @@ public:
     explicit VulkanRoom(const RoomField& room, std::span<const RayDatum> rayData);
 
     const vulkan::Device& device() const noexcept { return m_device; }
-    vulkan::VolumePasses& volume() noexcept { return m_volume; }
+    vulkan::FieldPasses& volume() noexcept { return m_volume; }
     VkDeviceAddress rayData() const noexcept { return m_rayData.address(); }
     VkDeviceAddress directions() const noexcept { return m_directions.address(); }
 
@@ -45,7 +45,7 @@ public:
 private:
     vulkan::Device m_device;
     const RoomField& m_room;
-    vulkan::VolumePasses m_volume;
+    vulkan::FieldPasses m_volume;
     vulkan::Profiler m_profiler;
     vulkan::Buffer m_rayData, m_directions;
 };

@@ -46,7 +46,7 @@ Result<double> meanIrradiance(const Field& field, const std::vector<FieldQuery>&
 }
 
 /// One cell beyond the building on every side, 1 m apart, shifted by a part of a cell along every axis.
-GridDesc shiftedGrid(float shift) {
+VolumeDesc shiftedGrid(float shift) {
     return {glm::vec3(-7, -1, -4) + glm::vec3(shift - 0.5f), glm::vec3(1), {16, 7, 10}};
 }
 
@@ -62,8 +62,8 @@ Result<void> fill(Field& field, const Tracer& tracer, const Lighting& lighting, 
 }
 
 Result<double> leakShare(const Context& context, const Tracer& tracer, const Lighting& lighting, float wallThickness,
-                         const FieldDesc& desc, Run run) {
-    auto field = Field::create(context, desc);
+                         const FieldDesc& desc, const FieldSettings& settings, Run run) {
+    auto field = Field::create(context, desc, settings);
     if (!field) return field.error();
     if (const auto done = fill(*field, tracer, lighting, run); !done) return done.error();
     const float wall = 0.5f * wallThickness;
@@ -95,9 +95,10 @@ Result<LeakResult> measureLeak(const Context& context, float wallThickness) {
                                                 std::tuple(LeakGuard::moments, Run::converge, &result.moments),
                                                 std::tuple(LeakGuard::moments, Run::update, &result.realtime)}) {
             FieldDesc desc;
-            desc.grid = shiftedGrid(shift);
-            desc.guard = guard;
-            const auto measured = leakShare(context, **tracer, lighting, wallThickness, desc, run);
+            desc.volumes = {shiftedGrid(shift)};
+            FieldSettings settings;
+            settings.guard = guard;
+            const auto measured = leakShare(context, **tracer, lighting, wallThickness, desc, settings, run);
             if (!measured) return measured.error();
             share->mean += *measured / double(kShifts.size());
             share->worst = std::max(share->worst, *measured);

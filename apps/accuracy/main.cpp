@@ -96,9 +96,9 @@ Result<MotionResult> measureMotion(const Context& context, const MotionCase& row
     FieldDesc desc;
     desc.raysPerProbe = row.rays;
     desc.rules = row.rules;
-    const auto grid = placeGrid(poseAt(loaded->scene).bounds, row.placement);
+    const auto grid = placeVolume(poseAt(loaded->scene).bounds, row.placement);
     if (!grid) return grid.error();
-    desc.grid = *grid;
+    desc.volumes = {*grid};
     return measureMotion(context, row.name, loaded->scene, desc, row.scope);
 }
 

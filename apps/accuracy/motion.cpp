@@ -192,7 +192,7 @@ Result<MotionResult> measureMotion(const Context& context, const std::string& na
                                    const FieldDesc& desc, MotionScope scope) try {
     const World world(context, scene);
     Watcher watcher(surfacePoints(world));
-    MotionResult result{name, desc.rules, probeCount(desc.grid), desc.raysPerProbe, 0, 0, 0, {}, {}};
+    MotionResult result{name, desc.rules, probeCount(desc), desc.raysPerProbe, 0, 0, 0, {}, {}};
     Field field = must(Field::create(context, desc));
     for (int k = 0; k < kSettledUpdates - kStillUpdates; ++k) must(field.update(*world.tracer, world.lighting));
     measureFlicker(field, world, watcher, result);

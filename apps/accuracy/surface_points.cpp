@@ -186,7 +186,7 @@ Result<std::vector<SurfaceRow>> measureSurface(const Context& context, const std
     for (const bool plain : {false, true}) {
         if (plain && !updatesToo) break;
         FieldDesc desc;
-        desc.grid = setup.grid;
+        desc.volumes = {setup.grid};
         auto field = Field::create(context, desc);
         if (!field) return field.error();
         if (!plain) {

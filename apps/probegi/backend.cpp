@@ -19,7 +19,9 @@ public:
     Result<std::unique_ptr<Tracer>> makeTracer(const Scene& scene, const ScenePose& pose) const override {
         return makeEmbreeTracer(m_context, scene, pose);
     }
-    Result<Field> makeField(const FieldDesc& desc) const override { return Field::create(m_context, desc); }
+    Result<Field> makeField(const FieldDesc& desc, const FieldSettings& settings) const override {
+        return Field::create(m_context, desc, settings);
+    }
     Result<RenderedPicture> render(const Tracer& tracer, const Lighting& lighting, const Field* field,
                                    const PictureDesc& desc) const override {
         return renderPicture(m_context, tracer, lighting, field, desc);

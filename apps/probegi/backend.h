@@ -35,7 +35,7 @@ public:
     virtual ~Backend() = default;
     virtual BackendKind kind() const noexcept = 0;
     virtual Result<std::unique_ptr<Tracer>> makeTracer(const Scene& scene, const ScenePose& pose) const = 0;
-    virtual Result<Field> makeField(const FieldDesc& desc) const = 0;
+    virtual Result<Field> makeField(const FieldDesc& desc, const FieldSettings& settings) const = 0;
     virtual Result<RenderedPicture> render(const Tracer& tracer, const Lighting& lighting, const Field* field,
                                            const PictureDesc& desc) const = 0;
 };

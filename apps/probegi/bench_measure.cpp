@@ -22,11 +22,13 @@ double millisecondsSince(Clock::time_point start) {
 }
 
 std::vector<Ray> probeRays(const Field& field) {
-    const GridDesc& grid = field.desc().grid;
+    const VolumeDesc& grid = field.desc().volumes[0];
     std::vector<Ray> rays;
-    rays.reserve(std::size_t(probeCount(grid)) * (field.rayDirections().size() + field.fixedRayDirections().size()));
+    rays.reserve(std::size_t(probeCount(grid)) *
+                 (field.control().rayDirections().size() + field.control().fixedRayDirections().size()));
     for (int probe = 0; probe < probeCount(grid); ++probe)
-        for (const std::span<const glm::vec3> directions : {field.rayDirections(), field.fixedRayDirections()})
+        for (const std::span<const glm::vec3> directions :
+             {field.control().rayDirections(), field.control().fixedRayDirections()})
             for (const glm::vec3& direction : directions) rays.push_back({probePosition(grid, probe), 0.0f, direction});
     return rays;
 }
@@ -80,7 +82,7 @@ Result<std::unique_ptr<Bench>> Bench::create(const LoadedSetup& setup, const Ben
     if (!tracer) return tracer.error();
     bench->m_tracer = std::move(*tracer);
     FieldDesc desc;
-    desc.grid = setup.grid;
+    desc.volumes = {setup.grid};
     desc.raysPerProbe = plan.raysPerProbe;
     auto field = Field::create(*all, desc), alone = Field::create(*one, desc);
     if (!field) return field.error();
@@ -137,7 +139,7 @@ BenchResult Bench::facts() const {
     result.threads = m_all.threads();
     result.probes = probeCount(m_setup.grid);
     result.raysPerProbe = m_plan.raysPerProbe;
-    result.fixedRays = int(m_field->fixedRayDirections().size());
+    result.fixedRays = int(m_field->control().fixedRayDirections().size());
     result.triangles = triangleCount(*m_setup.scene, m_setup.pose);
     result.points = m_points.size();
     result.pixels = m_primary.size();
@@ -153,10 +155,10 @@ Result<void> Bench::growth(BenchResult& result, const BenchProgress& progress) c
         PlacementDesc placement;
         placement.counts = volume.counts;
         placement.marginCells = 0;  // the same space for all: coarse grids have wide margins, where rays meet nothing
-        const auto grid = placeGrid(m_setup.pose.bounds, placement);
+        const auto grid = placeVolume(m_setup.pose.bounds, placement);
         if (!grid) return grid.error();
         FieldDesc desc;
-        desc.grid = *grid;
+        desc.volumes = {*grid};
         desc.raysPerProbe = volume.raysPerProbe;
         auto field = Field::create(m_all, desc);
         if (!field) return field.error();

@@ -59,7 +59,7 @@ Result<GpuBench> makeGpuBench(const LoadedSetup& setup, const BackendOptions& ba
     auto tracer = vulkan::makeTracer(*context, *device, *setup.scene, setup.pose, scene);
     if (!tracer) return tracer.error();
     FieldDesc desc;
-    desc.grid = setup.grid;
+    desc.volumes = {setup.grid};
     desc.raysPerProbe = plan.raysPerProbe;
     auto field = vulkan::makeField(*context, *device, desc);
     if (!field) return field.error();

@@ -50,7 +50,7 @@ Json skyOf(const Sky& sky) {
 }
 
 Json gridOf(const Scene& scene, const ScenePose& pose) {
-    const Result<GridDesc> grid = scene.grid ? Result<GridDesc>(*scene.grid) : automaticGrid(scene, pose);
+    const Result<VolumeDesc> grid = scene.grid ? Result<VolumeDesc>(*scene.grid) : automaticGrid(scene, pose);
     if (!grid) return nullptr;
     return {{"source", scene.grid ? "scene" : "automatic"},
             {"origin", toJson(grid->origin + scene.origin)},

@@ -70,7 +70,7 @@ Result<glm::ivec3> parseCounts(std::string_view text) {
     return counts;
 }
 
-Result<GridDesc> parseVolume(std::string_view text) {
+Result<VolumeDesc> parseVolume(std::string_view text) {
     constexpr std::string_view kForm = "ORIGIN:SPACING:COUNTS, e.g. -4,0,-4:0.5:17x9x17 (metres, one spacing or three)";
     const auto parts = split(text, ':');
     if (parts.size() != 3) return expected(text, kForm);
@@ -80,7 +80,7 @@ Result<GridDesc> parseVolume(std::string_view text) {
     const auto counts = parseCounts(parts[2]);
     if (!origin || !spacing) return expected(text, kForm);
     if (!counts) return counts.error();
-    GridDesc grid;
+    VolumeDesc grid;
     grid.origin = *origin;
     grid.spacing = single ? glm::vec3((*spacing)[0]) : glm::vec3((*spacing)[0], (*spacing)[1], (*spacing)[2]);
     grid.counts = *counts;

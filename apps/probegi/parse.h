@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "probegi/grid.h"
 #include "probegi/image.h"
 #include "probegi/tracer.h"
+#include "probegi/volume.h"
 
 namespace probegi::tool {
 
@@ -21,7 +21,7 @@ Result<std::vector<float>> parseNumbers(std::string_view text, std::size_t count
 
 Result<glm::vec3> parseVector(std::string_view text);   ///< "X,Y,Z"
 Result<glm::ivec3> parseCounts(std::string_view text);  ///< "XxYxZ", each 2..1024, at most 2^24 in all
-Result<GridDesc> parseVolume(std::string_view text);    ///< "X,Y,Z:S:XxYxZ" or "X,Y,Z:SX,SY,SZ:XxYxZ"
+Result<VolumeDesc> parseVolume(std::string_view text);  ///< "X,Y,Z:S:XxYxZ" or "X,Y,Z:SX,SY,SZ:XxYxZ"
 Result<PlacedLight> parseSun(std::string_view text);    ///< "X,Y,Z,LUX": the direction in which the light travels
 Result<PlacedLight> parsePoint(std::string_view text);  ///< "X,Y,Z,R,G,B": position, intensity in W/sr
 

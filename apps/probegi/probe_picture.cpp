@@ -100,7 +100,7 @@ std::vector<ProbeState> probeStates(std::span<const ProbeSight> probes) {
     return states;
 }
 
-HdrImage drawProbes(const Picture& picture, float exposure, const PlacedCamera& camera, const GridDesc& grid,
+HdrImage drawProbes(const Picture& picture, float exposure, const PlacedCamera& camera, const VolumeDesc& grid,
                     std::span<const ProbeState> states) {
     HdrImage shown = picture.color, nearest = picture.depth;
     for (glm::vec3& pixel : shown.pixels) pixel = 0.55f * toDisplay(pixel, {exposure, true});

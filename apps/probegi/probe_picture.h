@@ -22,7 +22,7 @@ const char* colourOf(ProbeState state);
 
 /// The picture dimmed, with a ball for every probe, hidden by what stands before it; probes in walls shine through.
 /// `picture` must have its depth. Values as writeImage takes them, for exposure 1.
-HdrImage drawProbes(const Picture& picture, float exposure, const PlacedCamera& camera, const GridDesc& grid,
+HdrImage drawProbes(const Picture& picture, float exposure, const PlacedCamera& camera, const VolumeDesc& grid,
                     std::span<const ProbeState> states);
 
 }  // namespace probegi::tool

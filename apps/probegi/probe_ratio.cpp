@@ -82,7 +82,7 @@ void keepMeaningful(const std::vector<ProbeTruth::Probe>& all, ProbeTruth& truth
 
 }  // namespace
 
-Result<ProbeTruth> traceProbeTruth(const Tracer& tracer, const PathTracer& pathTracer, const GridDesc& grid,
+Result<ProbeTruth> traceProbeTruth(const Tracer& tracer, const PathTracer& pathTracer, const VolumeDesc& grid,
                                    int maxProbes, int samples, bool diffuseOnly) {
     ProbeTruth truth;
     std::vector<int> probes;

@@ -22,7 +22,7 @@ struct ProbeTruth {
 
 /// Path traces at up to `maxProbes` probes in free space, `samples` paths a direction. Errors: those of both
 /// tracers.
-Result<ProbeTruth> traceProbeTruth(const Tracer& tracer, const PathTracer& pathTracer, const GridDesc& grid,
+Result<ProbeTruth> traceProbeTruth(const Tracer& tracer, const PathTracer& pathTracer, const VolumeDesc& grid,
                                    int maxProbes, int samples, bool diffuseOnly);
 
 struct Percentiles {

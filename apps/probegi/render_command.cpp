@@ -64,15 +64,16 @@ Result<std::optional<Field>> makeField(const Backend& backend, const Tracer& tra
                                        const RenderOptions& options, RenderStats& stats) {
     if (options.method == Method::none || (options.method == Method::reference && !options.guide)) return std::nullopt;
     FieldDesc desc;
-    desc.grid = setup.grid;
+    desc.volumes = {setup.grid};
     desc.raysPerProbe = options.rays;
     desc.seed = options.seed;
     desc.rules = options.rules;
-    if (options.rules == FieldRules::paper) desc.visibilityExponent = kPaperVisibilityExponent;
-    desc.guard = options.method == Method::leaky ? LeakGuard::none : LeakGuard::moments;
-    auto field = backend.makeField(desc);
+    FieldSettings settings;
+    if (options.rules == FieldRules::paper) settings.visibilityExponent = kPaperVisibilityExponent;
+    settings.guard = options.method == Method::leaky ? LeakGuard::none : LeakGuard::moments;
+    auto field = backend.makeField(desc, settings);
     if (!field) return field.error();
-    stats.probes = probeCount(desc.grid);
+    stats.probes = probeCount(desc);
     stats.raysPerProbe = desc.raysPerProbe;
     auto run = runField(*field, tracer, setup.lighting, options.run);
     if (!run) return run.error();

@@ -138,7 +138,7 @@ Result<FieldResult> fillAndMeasure(const Studio& studio, const ProbeTruth& truth
 
 FieldDesc fieldDesc(const Studio& studio) {
     FieldDesc desc;
-    desc.grid = studio.setup.grid;
+    desc.volumes = {studio.setup.grid};
     desc.raysPerProbe = studio.settings.raysPerProbe;
     desc.seed = studio.settings.seed;
     return desc;
@@ -146,7 +146,7 @@ FieldDesc fieldDesc(const Studio& studio) {
 
 Result<std::vector<ProbeSight>> lookAtProbes(const Field& field) {
     constexpr glm::vec3 kAxes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    const GridDesc& grid = field.desc().grid;
+    const VolumeDesc& grid = field.desc().volumes[0];
     const auto count = std::size_t(probeCount(grid));
     std::vector<FieldQuery> queries;
     for (std::size_t probe = 0; probe < count; ++probe)
@@ -165,7 +165,7 @@ Result<std::vector<ProbeSight>> lookAtProbes(const Field& field) {
 /// A fresh field by real-time updates, and the first camera's picture with it.
 Result<FieldPicture> drawRealtime(const Studio& studio, const RenderedScene& scene) {
     studio.begin(kRealtime);
-    auto fresh = studio.backend.makeField(fieldDesc(studio));
+    auto fresh = studio.backend.makeField(fieldDesc(studio), {});
     if (!fresh) return fresh.error();
     auto filled = fillAndMeasure(studio, scene.truth, *fresh,
                                  {studio.settings.realtimeUpdates, {}, studio.settings.run.progress});
@@ -178,13 +178,15 @@ Result<FieldPicture> drawRealtime(const Studio& studio, const RenderedScene& sce
 /// The field without and with its leak guard. The second run starts from the first one's light, which it forgets. The
 /// field comes back for whoever wants to be guided by it.
 Result<Field> drawFields(const Studio& studio, RenderedScene& scene) {
-    auto field = studio.backend.makeField(fieldDesc(studio));
+    auto field = studio.backend.makeField(fieldDesc(studio), {});
     if (!field) return field.error();
     for (const auto& [guard, piece, result, method] :
          {std::tuple(LeakGuard::none, kLeakyField, &scene.leakyField, &RenderedView::leaky),
           std::tuple(LeakGuard::moments, kField, &scene.ddgiField, &RenderedView::ddgi)}) {
         studio.begin(piece);
-        field->setGuard(guard);
+        FieldSettings settings = field->control().settings();
+        settings.guard = guard;
+        if (auto set = field->control().setSettings(settings); !set) return set.error();
         auto filled = fillAndMeasure(studio, scene.truth, *field, studio.settings.run);
         if (!filled) return filled.error();
         *result = std::move(*filled);

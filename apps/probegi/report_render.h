@@ -96,7 +96,7 @@ struct ProbeSight {
 struct RenderedScene : RenderedView {
     std::size_t triangles = 0;
     std::size_t lights = 0;
-    GridDesc grid;
+    VolumeDesc grid;
     double prepareSeconds = 0;  ///< tracer and light sampling structures
     FieldResult leakyField, ddgiField;
     std::optional<FieldPicture> realtime;  ///< with ReportSettings::realtimeUpdates

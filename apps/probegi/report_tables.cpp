@@ -121,7 +121,7 @@ ReportTable timeTable(const RenderedScene& scene) {
 }
 
 ReportTable sceneTable(const RenderedScene& scene) {
-    const GridDesc& grid = scene.grid;
+    const VolumeDesc& grid = scene.grid;
     const FieldMemory& memory = scene.ddgiField.memory;
     const auto probes = std::size_t(probeCount(grid));
     return {"Scene and memory",

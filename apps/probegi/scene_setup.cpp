@@ -125,9 +125,9 @@ Result<PlacedCamera> makeCamera(const SceneOptions& options, const ScenePose& po
     return camera;
 }
 
-Result<GridDesc> makeGrid(const SceneOptions& options, const Scene& scene, const ScenePose& pose) {
+Result<VolumeDesc> makeGrid(const SceneOptions& options, const Scene& scene, const ScenePose& pose) {
     if (!options.volume.empty())
-        return parseVolume(options.volume).transform([&](GridDesc grid) {
+        return parseVolume(options.volume).transform([&](VolumeDesc grid) {
             grid.origin -= scene.origin;
             return grid;
         });
@@ -145,7 +145,7 @@ struct Overhang {
     float metres = 0;
 };
 
-Overhang overhang(const GridDesc& grid, glm::vec3 lower, glm::vec3 upper) {
+Overhang overhang(const VolumeDesc& grid, glm::vec3 lower, glm::vec3 upper) {
     const glm::vec3 last = grid.origin + grid.spacing * glm::vec3(grid.counts - 1);
     const glm::vec3 beyond = glm::max(grid.origin - lower, upper - last);
     Overhang most;
@@ -181,13 +181,14 @@ Result<LoadedScene> readScene(const SceneOptions& options) {
 }
 
 // By rays on the CPU whatever the backend, so that the grid is the same on all of them.
-Result<GridDesc> automaticGrid(const Scene& scene, const ScenePose& pose, const PlacementDesc& placement, int threads) {
-    auto byBounds = placeGrid(pose.bounds, placement);
+Result<VolumeDesc> automaticGrid(const Scene& scene, const ScenePose& pose, const PlacementDesc& placement,
+                                 int threads) {
+    auto byBounds = placeVolume(pose.bounds, placement);
     if (!byBounds) return byBounds;
     const auto context = Context::create({.threads = threads, .log = {}, .progress = {}});
     if (!context) return context.error();
     const auto tracer = makeEmbreeTracer(*context, scene, pose);
-    if (tracer) return placeGrid(**tracer, placement);
+    if (tracer) return placeVolume(**tracer, placement);
     if (tracer.error().code == ErrorCode::unsupported) return byBounds;
     return tracer.error();
 }

@@ -46,7 +46,7 @@ struct LoadedSetup {
     ScenePose pose;
     Lighting lighting;  ///< lights of no intensity are left out
     PlacedCamera camera;
-    GridDesc grid;
+    VolumeDesc grid;
     float exposure = 1.0f;              ///< that was asked for, or what the scene suggests
     bool automaticExposure = false;     ///< of what is shown: from the picture
     std::vector<std::string> warnings;  ///< of the reader, and of a grid that leaves surfaces out; one sentence each
@@ -57,8 +57,8 @@ struct LoadedSetup {
 Result<LoadedScene> readScene(const SceneOptions& options);
 
 /// The grid where neither the scene nor the command line has one: over the scene, with an eye to its walls.
-Result<GridDesc> automaticGrid(const Scene& scene, const ScenePose& pose, const PlacementDesc& placement = {},
-                               int threads = 0);
+Result<VolumeDesc> automaticGrid(const Scene& scene, const ScenePose& pose, const PlacementDesc& placement = {},
+                                 int threads = 0);
 
 /// The exposure at which a picture is shown: the setup's, or one that follows from the picture.
 float shownExposure(const LoadedSetup& setup, const HdrImage& color);

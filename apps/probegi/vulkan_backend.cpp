@@ -24,8 +24,8 @@ public:
         desc.tracer = m_tracer;
         return vulkan::makeTracer(m_context, m_device, scene, pose, desc);
     }
-    Result<Field> makeField(const FieldDesc& desc) const override {
-        return vulkan::makeField(m_context, m_device, desc);
+    Result<Field> makeField(const FieldDesc& desc, const FieldSettings& settings) const override {
+        return vulkan::makeField(m_context, m_device, desc, settings);
     }
     Result<RenderedPicture> render(const Tracer& tracer, const Lighting& lighting, const Field* field,
                                    const PictureDesc& desc) const override {

@@ -140,9 +140,9 @@ Result<void> bench(const std::string& name, const Settings& settings) {
     if (!tracer) return tracer.error();
     const Lighting lighting{pose.lights, scene->sky};
     FieldDesc fieldDesc;
-    const auto placed = scene->grid ? Result<GridDesc>(*scene->grid) : placeGrid(pose.bounds);
+    const auto placed = scene->grid ? Result<VolumeDesc>(*scene->grid) : placeVolume(pose.bounds);
     if (!placed) return placed.error();
-    fieldDesc.grid = *placed;
+    fieldDesc.volumes = {*placed};
     auto field = Field::create(*context, fieldDesc);
     if (!field) return field.error();
     for (int i = 0; i < 24; ++i)

@@ -15,38 +15,38 @@ layout(push_constant, scalar) uniform Push {
 };
 
 void storeIrradiance(int probe, ivec2 at, vec3 newMean) {
-    const int size = probegiVolume.irradianceTexels;
-    const ivec3 cell = gpuProbeCell(probe, probegiVolume.counts);
-    const ivec2 tile = gpuTileOrigin(cell, size);
-    const vec3 old = imageLoad(irradianceImage, ivec3(tile + at, cell.z)).rgb;
+    const int size = probegiField.irradianceTexels;
+    const ivec3 place = poolTile(probegiField.tiles, probe);
+    const ivec2 tile = tileOrigin(place, size);
+    const vec3 old = imageLoad(irradianceImage, ivec3(tile + at, place.z)).rgb;
     const BlendRule rule = BlendRule(push.irradianceHysteresis, push.significantChange, push.newDistribution);
     const uvec3 bits = blendIrradianceTexel(old, newMean, rule, push.linear != 0, push.ditherSeed,
                                             uint((probe * size + at.y) * size + at.x));
     const vec4 stored = vec4(unpackHalf(bits.x), unpackHalf(bits.y), unpackHalf(bits.z), 0.0);
-    imageStore(irradianceImage, ivec3(tile + at, cell.z), stored);
+    imageStore(irradianceImage, ivec3(tile + at, place.z), stored);
     for (int copy = 0; copy < 3; ++copy) {
         const ivec2 border = octBorderTexel(at.x, at.y, size, copy);
-        if (border != at) imageStore(irradianceImage, ivec3(tile + border, cell.z), stored);
+        if (border != at) imageStore(irradianceImage, ivec3(tile + border, place.z), stored);
     }
 }
 
 void storeVisibility(int probe, ivec2 at, vec2 newMoments) {
-    const int size = probegiVolume.visibilityTexels;
-    const ivec3 cell = gpuProbeCell(probe, probegiVolume.counts);
-    const ivec2 tile = gpuTileOrigin(cell, size);
-    const vec2 old = imageLoad(visibilityImage, ivec3(tile + at, cell.z)).rg;
+    const int size = probegiField.visibilityTexels;
+    const ivec3 place = poolTile(probegiField.tiles, probe);
+    const ivec2 tile = tileOrigin(place, size);
+    const vec2 old = imageLoad(visibilityImage, ivec3(tile + at, place.z)).rg;
     const uint bits = blendVisibilityTexel(packMoments(old), newMoments, push.visibilityHysteresis, push.ditherSeed,
                                            uint((probe * size + at.y) * size + at.x));
     const vec4 stored = vec4(unpackMoments(bits), 0.0, 0.0);
-    imageStore(visibilityImage, ivec3(tile + at, cell.z), stored);
+    imageStore(visibilityImage, ivec3(tile + at, place.z), stored);
     for (int copy = 0; copy < 3; ++copy) {
         const ivec2 border = octBorderTexel(at.x, at.y, size, copy);
-        if (border != at) imageStore(visibilityImage, ivec3(tile + border, cell.z), stored);
+        if (border != at) imageStore(visibilityImage, ivec3(tile + border, place.z), stored);
     }
 }
 
 void blendIrradiance(int probe, ivec2 at) {
-    const vec3 n = octTexelDirection(at.x, at.y, probegiVolume.irradianceTexels);
+    const vec3 n = octTexelDirection(at.x, at.y, probegiField.irradianceTexels);
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (int ray = 0; ray < push.rays; ++ray) {
@@ -60,13 +60,13 @@ void blendIrradiance(int probe, ivec2 at) {
 }
 
 void blendVisibility(int probe, ivec2 at) {
-    const vec3 n = octTexelDirection(at.x, at.y, probegiVolume.visibilityTexels);
+    const vec3 n = octTexelDirection(at.x, at.y, probegiField.visibilityTexels);
     vec2 sum = vec2(0.0);
     float weights = 0.0;
     for (int ray = 0; ray < push.rays; ++ray) {
         const float weight = visibilityWeight(n, Vec3s(directions).at[ray], visibilityExponent);
         const float distance = safeDistance(RayData(push.rayData).at[probe * push.rays + ray].distance);
-        const float d = visibilityDistance(distance, push.maxDistance);
+        const float d = visibilityDistance(distance, probegiVolume.maxDistance);
         sum += weight * vec2(d, d * d);
         weights += weight;
     }
@@ -75,18 +75,18 @@ void blendVisibility(int probe, ivec2 at) {
 
 // Irradiance of all probes, then visibility of all probes: no group does both with maps of 8x8 and 16x16.
 void main() {
-    const int irradianceSize = probegiVolume.irradianceTexels;
-    const int visibilitySize = probegiVolume.visibilityTexels;
+    const int irradianceSize = probegiField.irradianceTexels;
+    const int visibilitySize = probegiField.visibilityTexels;
     const int irradianceTexels = irradianceSize * irradianceSize;
     const int visibilityTexels = visibilitySize * visibilitySize;
     int index = int(globalIndex());
-    if (index < push.probes * irradianceTexels) {
+    if (index < probegiProbeCount() * irradianceTexels) {
         const int texel = index % irradianceTexels;
         blendIrradiance(index / irradianceTexels, ivec2(texel % irradianceSize, texel / irradianceSize));
         return;
     }
-    index -= push.probes * irradianceTexels;
-    if (index >= push.probes * visibilityTexels) return;
+    index -= probegiProbeCount() * irradianceTexels;
+    if (index >= probegiProbeCount() * visibilityTexels) return;
     const int texel = index % visibilityTexels;
     blendVisibility(index / visibilityTexels, ivec2(texel % visibilitySize, texel / visibilitySize));
 }

@@ -25,7 +25,7 @@ Result<float> meanOnWalls(const Field& field, std::span<const FieldQuery> points
 /// Runs the loop for as long as the lamp stays as it is; returns the walls' mean indirect irradiance at the end.
 Result<float> playFrames(Field& field, const Tracer& tracer, const Lighting& lighting, const Room& room) {
     const std::vector<FieldQuery> points = room.wallPoints();
-    field.notify(FieldEvent::largeLightChange);  // follow faster for some frames
+    field.control().notify(FieldEvent::largeLightChange);  // follow faster for some frames
     for (int frame = 1; frame <= kFramesPerSwitch; ++frame) {
         const auto times = field.update(tracer, lighting);
         if (!times) return times.error();
@@ -46,7 +46,7 @@ Result<bool> runGame() {
     const auto tracer = makeEmbreeTracer(*context, scene, pose);
     if (!tracer) return tracer.error();
     FieldDesc desc;
-    desc.grid = {.origin = glm::vec3(-0.25f), .spacing = glm::vec3(0.5f), .counts = {14, 8, 10}};
+    desc.volumes = {{.origin = glm::vec3(-0.25f), .spacing = glm::vec3(0.5f), .counts = {14, 8, 10}}};
     auto field = Field::create(*context, desc);
     if (!field) return field.error();
 

@@ -14,7 +14,7 @@ static int run() {
     const auto tracer = makeEmbreeTracer(context, scene, pose).value();
 
     FieldDesc desc;
-    desc.grid = placeGrid(pose.bounds, {.targetProbes = 1000}).value();
+    desc.volumes = {placeVolume(pose.bounds, {.targetProbes = 1000}).value()};
     Field field = Field::create(context, desc).value();
     for (int frame = 0; frame < 200; ++frame) {  // an engine does one update a frame
         field.update(*tracer, lighting).value();

@@ -33,7 +33,7 @@ struct World {
     }
     Field makeField() {
         FieldDesc desc;
-        desc.grid = placeGrid(house.poseWithDoor(0).bounds, {.targetProbes = 2000}).value();
+        desc.volumes = {placeVolume(house.poseWithDoor(0).bounds, {.targetProbes = 2000}).value()};
         return Field::create(context, desc).value();
     }
 };
@@ -69,7 +69,7 @@ double playFrames(World& world, float from, float to) {
             const auto start = Clock::now();
             must(world.tracer->setPose(world.house.poseWithDoor(angle)));
             moving += std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-            world.field.notify(FieldEvent::largeObjectChange);
+            world.field.control().notify(FieldEvent::largeObjectChange);
         }
         world.field.update(*world.tracer, world.lighting).value();
         if (frame % 30 == 0) std::printf("  frame %3d: %.3f W/m^2\n", frame, secondRoom(world));

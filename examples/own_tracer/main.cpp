@@ -31,12 +31,10 @@ RayDatum traceProbeRay(const SphereWorld& world, const Field& field, glm::vec3 o
 
 /// One update: the directions come from the field, the data goes back in the same order.
 Result<UpdateTimes> updateOnce(const SphereWorld& world, Field& field, std::vector<RayDatum>& rays) {
-    const auto directions = field.rayDirections();
-    const GridDesc& grid = field.desc().grid;
     rays.clear();
-    for (int probe = 0; probe < probeCount(grid); ++probe) {
-        for (const glm::vec3& direction : directions) {
-            rays.push_back(traceProbeRay(world, field, probePosition(grid, probe), direction));
+    for (const ProbeTask& task : field.control().tasks()) {
+        for (const glm::vec3& direction : field.control().rayDirections()) {
+            rays.push_back(traceProbeRay(world, field, task.origin, direction));
         }
     }
     return field.update(rays);
@@ -75,11 +73,10 @@ bool lightIsRight(const SphereWorld& world, const Field& field) {
 int main() {
     const SphereWorld world;
     FieldDesc desc;
-    desc.grid = {.origin = {-5.25f, 0.15f, -5.25f}, .spacing = glm::vec3(0.75f), .counts = {15, 5, 15}};
-    desc.hysteresis = 0.9f;
-    desc.visibilityHysteresis = 0.9f;
+    desc.volumes = {{.origin = {-5.25f, 0.15f, -5.25f}, .spacing = glm::vec3(0.75f), .counts = {15, 5, 15}}};
+    const FieldSettings settings{.hysteresis = 0.9f, .visibilityHysteresis = 0.9f};
     const auto context = Context::create({.parallelFor = runJobs});
-    auto field = context.and_then([&](const Context& c) { return Field::create(c, desc); });
+    auto field = context.and_then([&](const Context& c) { return Field::create(c, desc, settings); });
     if (!field) {
         std::fprintf(stderr, "own_tracer: %s\n", field.error().message.c_str());
         return 1;

@@ -27,8 +27,8 @@ GlobalIllumination::GlobalIllumination(const Context& context, const EngineDevic
       m_device(adopt(context, engine, pool)),
       m_gpuScene(GpuScene::create(context, m_device, m_scene, poseAt(m_scene), {.movableNodes = {&kCrate, 1}}).value()),
       m_lighting(GpuLighting::create(m_device, lightingOf(start)).value()),
-      m_traced(ProbeVolume::create(m_device, fieldDesc()).value()),
-      m_own(ProbeVolume::create(m_device, fieldDesc()).value()),
+      m_traced(GpuField::create(m_device, fieldDesc(), fieldSettings()).value()),
+      m_own(GpuField::create(m_device, fieldDesc(), fieldSettings()).value()),
       m_ownRays(engine, pool, m_own) {}
 
 void GlobalIllumination::recordUpload(const vk::raii::CommandBuffer& commands) {
@@ -68,6 +68,6 @@ void GlobalIllumination::recordQuestions(const vk::raii::CommandBuffer& commands
 void GlobalIllumination::printMemory() const {
     const FieldMemory memory = m_traced.memory();
     std::printf("%d probes: %zu bytes, and %zu of scratch; scene %zu, lighting %zu bytes\n",
-                probeCount(m_traced.desc().grid), memory.persistentBytes(), memory.scratchBytes, m_gpuScene.bytes(),
+                probeCount(m_traced.desc()), memory.persistentBytes(), memory.scratchBytes, m_gpuScene.bytes(),
                 m_lighting.bytes());
 }

@@ -24,7 +24,7 @@ public:
                          vk::DeviceAddress traced, vk::DeviceAddress own);
 
     const probegi::vulkan::Device& device() const { return m_device; }
-    const probegi::vulkan::ProbeVolume& volume() const { return m_traced; }
+    const probegi::vulkan::GpuField& volume() const { return m_traced; }
     void printMemory() const;
 
 private:
@@ -35,6 +35,6 @@ private:
     probegi::vulkan::Device m_device;
     probegi::vulkan::GpuScene m_gpuScene;
     probegi::vulkan::GpuLighting m_lighting;
-    probegi::vulkan::ProbeVolume m_traced, m_own;
+    probegi::vulkan::GpuField m_traced, m_own;
     OwnRays m_ownRays;
 };

@@ -15,7 +15,7 @@ struct TracePush {
 };
 
 std::size_t rayCount(const FieldDesc& desc) {
-    return std::size_t(probeCount(desc.grid)) * desc.raysPerProbe;
+    return std::size_t(probeCount(desc)) * desc.raysPerProbe;
 }
 
 vk::raii::PipelineLayout makeLayout(const vk::raii::Device& device, vk::DescriptorSetLayout set) {
@@ -25,7 +25,7 @@ vk::raii::PipelineLayout makeLayout(const vk::raii::Device& device, vk::Descript
 
 }  // namespace
 
-OwnRays::OwnRays(const EngineDevice& engine, MemoryPool& pool, const vulkan::ProbeVolume& volume)
+OwnRays::OwnRays(const EngineDevice& engine, MemoryPool& pool, const vulkan::GpuField& volume)
     : m_directions(engine.device(), pool, volume.desc().raysPerProbe * sizeof(glm::vec3)),
       m_data(engine.device(), pool, rayCount(volume.desc()) * sizeof(RayDatum)),
       m_probes(engine.device()),
@@ -34,10 +34,10 @@ OwnRays::OwnRays(const EngineDevice& engine, MemoryPool& pool, const vulkan::Pro
     m_probes.write(volume);
 }
 
-void OwnRays::record(const vk::raii::CommandBuffer& commands, const vulkan::ProbeVolume& volume,
+void OwnRays::record(const vk::raii::CommandBuffer& commands, const vulkan::GpuField& volume,
                      vk::DeviceAddress frame) const {
     // The directions change every frame. Written by the command buffer itself, they need no copy a frame in flight.
-    const std::span<const glm::vec3> directions = volume.rayDirections();
+    const std::span<const glm::vec3> directions = volume.control().rayDirections();
     order(commands, kComputeUse, kTransferWrite);
     commands.updateBuffer<glm::vec3>(*m_directions.buffer, 0, {std::uint32_t(directions.size()), directions.data()});
     order(commands, kTransferWrite, kComputeUse);

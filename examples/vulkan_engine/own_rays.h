@@ -10,11 +10,11 @@
 class OwnRays {
 public:
     /// For updates of `volume`, which must outlive this.
-    OwnRays(const EngineDevice& engine, MemoryPool& pool, const probegi::vulkan::ProbeVolume& volume);
+    OwnRays(const EngineDevice& engine, MemoryPool& pool, const probegi::vulkan::GpuField& volume);
 
     /// Traces the rays of the coming update; its data is visible to compute shaders afterwards. `frame`: address of
     /// FrameData.
-    void record(const vk::raii::CommandBuffer& commands, const probegi::vulkan::ProbeVolume& volume,
+    void record(const vk::raii::CommandBuffer& commands, const probegi::vulkan::GpuField& volume,
                 vk::DeviceAddress frame) const;
     probegi::vulkan::BufferRange data() const { return {m_data.address, m_data.bytes}; }
 

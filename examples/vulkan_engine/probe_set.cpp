@@ -1,6 +1,6 @@
 #include "probe_set.h"
 
-using probegi::vulkan::ProbeVolume;
+using probegi::vulkan::GpuField;
 
 namespace {
 
@@ -12,7 +12,7 @@ vk::raii::DescriptorPool makePool(const vk::raii::Device& device) {
 }
 
 vk::raii::DescriptorSetLayout makeLayout(const vk::raii::Device& device) {
-    const auto bindings = ProbeVolume::queryBindings(0, VK_SHADER_STAGE_COMPUTE_BIT);
+    const auto bindings = GpuField::queryBindings(0, VK_SHADER_STAGE_COMPUTE_BIT);
     VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, nullptr, 0, {}, {}};
     info.bindingCount = std::uint32_t(bindings.size());
     info.pBindings = bindings.data();

@@ -15,7 +15,7 @@ public:
     Renderer(const EngineDevice& engine, MemoryPool& pool, vk::Extent2D size);
 
     /// Whose probes are asked. Not while a frame is in flight.
-    void useProbes(const probegi::vulkan::ProbeVolume& volume) { m_probes.write(volume); }
+    void useProbes(const probegi::vulkan::GpuField& volume) { m_probes.write(volume); }
     /// `frame`: address of FrameData.
     void recordGBuffer(const vk::raii::CommandBuffer& commands, vk::DeviceAddress frame) const;
     void recordShading(const vk::raii::CommandBuffer& commands, vk::DeviceAddress frame) const;

@@ -89,10 +89,13 @@ Lighting lightingOf(const FrameData& frame) {
 FieldDesc fieldDesc() {
     FieldDesc desc;
     // Walls lie between probes, and a layer of probes outside of them: 980 in all.
-    desc.grid = {.origin = {-4.875f, -0.45f, -3.375f}, .spacing = glm::vec3(0.75f), .counts = {14, 7, 10}};
-    desc.hysteresis = desc.visibilityHysteresis = 0.9f;  // a short film: follow it closely
+    desc.volumes = {{.origin = {-4.875f, -0.45f, -3.375f}, .spacing = glm::vec3(0.75f), .counts = {14, 7, 10}}};
     desc.fixedRays = 0;  // the engine's own rays bring none, and both volumes are to follow alike
     return desc;
+}
+
+FieldSettings fieldSettings() {
+    return {.hysteresis = 0.9f, .visibilityHysteresis = 0.9f};  // a short film: follow it closely
 }
 
 std::vector<FieldQuery> questionsIn(const FrameData& frame, int room) {

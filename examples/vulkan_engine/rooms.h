@@ -37,6 +37,7 @@ probegi::Scene sceneOf(const FrameData& frame);
 probegi::ScenePose poseOf(const probegi::Scene& scene, const FrameData& start, const FrameData& now);
 probegi::Lighting lightingOf(const FrameData& frame);
 probegi::FieldDesc fieldDesc();
+probegi::FieldSettings fieldSettings();
 
 /// Questions all over a room (0 with the hole in its roof, 1 behind the door), in the six directions.
 std::vector<probegi::FieldQuery> questionsIn(const FrameData& frame, int room);

@@ -10,53 +10,11 @@
 #include <string_view>
 
 #include "probegi/context.h"
+#include "probegi/control.h"
 #include "probegi/export.h"
-#include "probegi/grid.h"
 #include "probegi/tracer.h"
 
 namespace probegi {
-
-/// The second axis of the pipeline: which of the eight surrounding probes a point may use.
-enum class LeakGuard : std::uint8_t {
-    none,     ///< trilinear and backface weights only: the leaking baseline
-    moments,  ///< DDGI: Chebyshev test on distance moments (section 2.2 and 4.1)
-};
-
-/// What an update ray that hits the back of a single-sided surface does to irradiance (section 4.1).
-enum class BackfaceRule : std::uint8_t {
-    zeroSample,  ///< counts as a sample of radiance 0 (the paper)
-    excluded,    ///< is left out of the average
-};
-
-/// Which rules a field follows where measurements led away from the paper (docs/accuracy.md has the list).
-enum class FieldRules : std::uint8_t {
-    measured,  ///< what came out nearer to the path tracer
-    paper,     ///< exactly what sections 2 and 4 of the paper say
-};
-
-/// How a Field is made. Distances are fractions of probe spacing: nothing here depends on the scene's scale.
-struct FieldDesc {
-    GridDesc grid{};
-    int raysPerProbe = 144;     ///< update rays a probe and frame, 8..4096
-    int fixedRays = 16;         ///< more rays a probe and update, always along the same directions: they tell change
-                                ///< from noise (FieldRules::measured only); 0..256; 0: change is not looked for
-    int irradianceTexels = 8;   ///< side of the octahedral irradiance map, 4..32, even
-    int visibilityTexels = 16;  ///< side of the octahedral visibility map, 4..64, even
-    float hysteresis = 0.97f;   ///< share of the old irradiance that survives an update (alpha of eq. 1), 0..0.999;
-                                ///< with FieldRules::measured only after events, and where there are no fixed rays
-    float visibilityHysteresis = 0.97f;  ///< the same for distance moments, on average over texels, 0..0.999
-    float visibilityExponent = 200.0f;   ///< power of the cosine that weights distances, 1..500
-    float selfShadowBias = 0.3f;         ///< TunableShadowBias of eq. 2, 0..2
-    float significantChange = 0.25f;     ///< Listing 3, 0..1, change of the encoded texel over the larger; 0 disables
-    float newDistribution = 0.8f;        ///< Listing 3, 0..1, same scale; 0 disables; both with FieldRules::paper only
-    BackfaceRule backfaceRule = BackfaceRule::zeroSample;
-    LeakGuard guard = LeakGuard::moments;
-    FieldRules rules = FieldRules::measured;
-    /// Points on emissive triangles that a probe looks at in each update besides its rays (Tracer::emitters), 0..16;
-    /// 0: light of a lamp comes by rays that happen to meet it. FieldRules::paper: none, as in the paper.
-    int emitterSamples = 4;
-    std::uint64_t seed = 1;  ///< of the per-frame ray directions, the emitter samples and the storage dither
-};
 
 /// What one ray of one probe brought home. This is the seam for engines with a ray tracer of their own.
 /// Where the ray met the back of a surface, as its winding has it, `distance` is negative. A single-sided surface is
@@ -103,13 +61,6 @@ struct ConvergeResult {
     float remaining = 0;
 };
 
-/// Changes that call for faster convergence than the plain hysteresis gives (section 4.3).
-enum class FieldEvent : std::uint8_t {
-    smallLightChange,   ///< irradiance hysteresis -15 % for 4 frames
-    largeLightChange,   ///< irradiance hysteresis -50 % for 10 frames
-    largeObjectChange,  ///< irradiance hysteresis -50 % for 10 frames, visibility hysteresis -50 % for 7 frames
-};
-
 /// Bytes that a field holds.
 struct FieldMemory {
     std::size_t irradianceBytes = 0;
@@ -123,28 +74,22 @@ struct FieldMemory {
 /// queried anywhere. Move-only. Concurrent queries are safe; an update excludes queries.
 class PROBEGI_API Field {
 public:
-    /// Errors: invalidArgument (the message names the field and its range), outOfMemory.
-    static Result<Field> create(const Context& context, const FieldDesc& desc);
+    /// Errors: invalidArgument (the message names the member and its range), outOfMemory.
+    static Result<Field> create(const Context& context, const FieldDesc& desc, const FieldSettings& settings = {});
     Field(Field&&) noexcept;
     Field& operator=(Field&&) noexcept;
     ~Field();
 
-    const FieldDesc& desc() const noexcept;
-    int frame() const noexcept;  ///< updates so far
+    /// Settings, events, the coming update's probes and rays.
+    FieldControl& control() noexcept;
+    const FieldControl& control() const noexcept;
+    const FieldDesc& desc() const noexcept { return control().desc(); }
     FieldMemory memory() const noexcept;
 
-    /// Unit directions of the coming update's rays, raysPerProbe of them, shared by all probes: a spherical Fibonacci
-    /// set that every frame shifts, with FieldRules::paper turns at random (section 2.3).
-    std::span<const glm::vec3> rayDirections() const noexcept;
-
-    /// Unit directions of the fixed rays, the same for all updates and probes; desc().fixedRays of them, none with
-    /// FieldRules::paper.
-    std::span<const glm::vec3> fixedRayDirections() const noexcept;
-
-    /// One update from the caller's own rays: datum [probe * raysPerProbe + ray] came along rayDirections()[ray] from
-    /// probePosition(desc().grid, probe). `fixedRays`, [probe * fixedRays + ray] along fixedRayDirections(), lets the
-    /// field follow changes at once and forget noise for long; without it (empty) old light fades by desc().hysteresis.
-    /// Errors: invalidArgument (wrong length), outOfMemory.
+    /// One update from the caller's own rays: datum [task * raysPerProbe + ray] came along
+    /// control().rayDirections()[ray] from control().tasks()[task].origin. `fixedRays`, [task * fixedRays + ray] along
+    /// fixedRayDirections(), lets the field follow changes at once and forget noise for long; without it (empty) old
+    /// light fades by the hysteresis. Errors: invalidArgument (wrong length), outOfMemory.
     Result<UpdateTimes> update(std::span<const RayDatum> rayData, std::span<const FixedRayDatum> fixedRays = {});
 
     /// One update with the library's pipeline: trace, shade with `lighting` and last frame's field, blend. All surfaces
@@ -163,14 +108,8 @@ public:
     Result<ConvergeResult> converge(const Tracer& tracer, const Lighting& lighting, float tolerance = 0.03f,
                                     int maxFrames = 256, const std::function<void(const UpdateTimes&)>& onUpdate = {});
 
-    /// Announces a change to the scene (section 4.3).
-    void notify(FieldEvent event) noexcept;
-
-    /// Changes the guard of later queries and updates; costs nothing, keeps all data.
-    void setGuard(LeakGuard guard) noexcept;
-
     /// Irradiance E in W m^-2. Unchecked and noexcept: vectors must be finite and unit (`toViewer`: or zero). Outside
-    /// the grid the nearest cell answers. A field on a GPU that was lost answers with not-a-number.
+    /// all volumes the nearest one's nearest cell answers. A field on a GPU that was lost answers with not-a-number.
     glm::vec3 irradiance(const FieldQuery& query) const noexcept;
 
     /// The same for many points, on all threads.
@@ -181,9 +120,9 @@ public:
     /// that wider neighbours answered: above a few per cent the grid is too coarse for the scene.
     std::uint64_t fallbackQueries() const noexcept;
 
-    /// Share of probe `probe`'s hits that were on backs and speak for solid matter, 0..1; above 0.3 the probe stands in
-    /// a wall and is not used. Backs of surfaces with two sides do not count while a free line leads from the probe, by
-    /// way of its neighbours, to one that sees fronts.
+    /// Share of the hits of the probe in slot `probe` that were on backs and speak for solid matter, 0..1; above 0.3
+    /// the probe stands in a wall and is not used. Backs of surfaces with two sides do not count while a free line
+    /// leads from the probe, by way of its neighbours, to one that sees fronts.
     float probeBackfaceShare(int probe) const noexcept;
 
     /// What probe `probe` stores: E in W m^-2 for a surface facing `normal` at the probe itself.
@@ -207,7 +146,7 @@ struct PlacementDesc {
 
 /// A grid that covers the bounds with the asked-for margin and near-cubic cells.
 /// Errors: invalidArgument (empty or non-finite bounds, counts out of range).
-PROBEGI_API Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc = {});
+PROBEGI_API Result<VolumeDesc> placeVolume(const Bounds& bounds, const PlacementDesc& desc = {});
 
 /// The same around everything that the tracer can hit, with an eye to what lies across the grid's axes: walls, floors
 /// and ceilings, as rays from inside the scene find them. Light at a surface is best known where probes stand a fifth
@@ -215,6 +154,6 @@ PROBEGI_API Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc
 /// by a few per cent; as many probes, and the margin holds. Axes along which there are no such surfaces (a scene that
 /// is turned, ground that rolls) stay as above. Takes some 16,000 rays; the same grid for the same scene. Errors: those
 /// above, and those of the tracer.
-PROBEGI_API Result<GridDesc> placeGrid(const Tracer& tracer, const PlacementDesc& desc = {});
+PROBEGI_API Result<VolumeDesc> placeVolume(const Tracer& tracer, const PlacementDesc& desc = {});
 
 }  // namespace probegi

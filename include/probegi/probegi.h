@@ -5,7 +5,6 @@
 #include "probegi/compare.h"
 #include "probegi/context.h"
 #include "probegi/field.h"
-#include "probegi/grid.h"
 #include "probegi/image.h"
 #include "probegi/io.h"
 #include "probegi/reference.h"
@@ -14,3 +13,4 @@
 #include "probegi/scene.h"
 #include "probegi/shapes.h"
 #include "probegi/tracer.h"
+#include "probegi/volume.h"

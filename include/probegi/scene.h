@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "probegi/export.h"
-#include "probegi/grid.h"
 #include "probegi/image.h"
 #include "probegi/result.h"
+#include "probegi/volume.h"
 
 namespace probegi {
 
@@ -142,8 +142,8 @@ struct Scene {
     std::vector<Node> nodes{};
     std::vector<AnimationChannel> animations{};
     Sky sky{};
-    std::optional<GridDesc> grid{};  ///< a probe grid that came with the scene; empty: placed automatically
-    float exposure = 1.0f;           ///< suggested tone-map exposure for pictures of this scene
+    std::optional<VolumeDesc> grid{};  ///< a probe grid that came with the scene; empty: placed automatically
+    float exposure = 1.0f;             ///< suggested tone-map exposure for pictures of this scene
     /// Where the point (0, 0, 0) of all coordinates here lies in those of the scene's file, metres. Not zero only where
     /// loadScene() moved a scene that lay far from the origin.
     glm::vec3 origin{0.0f};

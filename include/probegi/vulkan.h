@@ -17,7 +17,7 @@
 
 /// The Vulkan 1.3 backend. Two ways in:
 ///
-/// An engine hands over its device (Device::adopt) and records passes into its own command buffers: ProbeVolume,
+/// An engine hands over its device (Device::adopt) and records passes into its own command buffers: GpuField,
 /// GpuScene, GpuLighting. Recording never submits, waits or maps memory; the barriers between the library's own passes
 /// are recorded with them, and each record function says what the caller must order before and after it. Record outside
 /// of render passes; compute pipeline, descriptor sets and push constants of the command buffer are not kept. What a
@@ -240,32 +240,28 @@ struct BufferRange {
 /// Descriptors that `probegi/query.glsl` reads, from `PROBEGI_BINDING` on, in this order.
 inline constexpr std::uint32_t kQueryBindings = 4;
 
-/// A volume of probes on the GPU: atlases, and the passes that update and query them. The same field as the CPU's:
-/// same rays in, same irradiance out.
-class PROBEGI_API ProbeVolume {
+/// A field's probes on the GPU: atlases, and the passes that update and query them. The same field as the CPU's: same
+/// rays in, same irradiance out.
+class PROBEGI_API GpuField {
 public:
-    /// Errors: invalidArgument (as Field::create), unsupported (an axis has more probes than the device's images have
-    /// texels for, or the probes together have more than 2^31 - 1 rays), outOfMemory.
-    static Result<ProbeVolume> create(const Device& device, const FieldDesc& desc);
-    ProbeVolume(ProbeVolume&&) noexcept;
-    ProbeVolume& operator=(ProbeVolume&&) noexcept;
-    ~ProbeVolume();
+    /// Errors: invalidArgument (as Field::create), unsupported (more probes than the device's images hold, or together
+    /// more than 2^31 - 1 rays), outOfMemory.
+    static Result<GpuField> create(const Device& device, const FieldDesc& desc, const FieldSettings& settings = {});
+    GpuField(GpuField&&) noexcept;
+    GpuField& operator=(GpuField&&) noexcept;
+    ~GpuField();
 
-    const FieldDesc& desc() const noexcept;
-    int frame() const noexcept;           ///< updates recorded so far
+    /// Settings, events, the coming update's probes and rays. What is set counts for passes that are recorded from then
+    /// on; shaders of the engine that read the field through `probegi/query.glsl` have new settings from the next
+    /// recordSettings(), recordUpdate(), recordQuery() or recordShading() on.
+    FieldControl& control() noexcept;
+    const FieldControl& control() const noexcept;
+    const FieldDesc& desc() const noexcept { return control().desc(); }
     FieldMemory memory() const noexcept;  ///< of GPU memory
-    /// As Field::rayDirections: of the coming update.
-    std::span<const glm::vec3> rayDirections() const noexcept;
-    /// As Field::fixedRayDirections: the same for all updates.
-    std::span<const glm::vec3> fixedRayDirections() const noexcept;
-    void notify(FieldEvent event) noexcept;
-    /// The guard of passes that are recorded from now on. Shaders of the engine that read the volume through
-    /// `probegi/query.glsl` have it from the next recordGuard(), recordUpdate(), recordQuery() or recordShading() on.
-    void setGuard(LeakGuard guard) noexcept;
 
-    /// Hands setGuard()'s guard to the shaders that read the volume, for engines that change it between updates. Orders
+    /// Hands the settings to the shaders that read the field, for engines that change them between updates. Orders
     /// itself against what comes before and after in the queue; nothing where nothing has changed. Errors: outOfMemory.
-    Result<void> recordGuard(VkCommandBuffer commands);
+    Result<void> recordSettings(VkCommandBuffer commands);
 
     /// Clears the probes and begins at frame 0. Once before any other use, and whenever the probes shall forget
     /// (another level). Orders itself against what comes before and after in the queue. Errors: outOfMemory.
@@ -277,13 +273,13 @@ public:
     Result<void> recordUpdate(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,
                               Profiler* profiler = nullptr);
 
-    /// One update from the caller's own rays: RayDatum (16 bytes) [probe * raysPerProbe + ray] along rayDirections().
-    /// The caller makes the data visible to compute shader reads. Radiance that is not a number or infinite counts as
-    /// 0. Errors: invalidArgument (the range is too short for all rays, or its address is not a multiple of 4),
-    /// outOfMemory.
+    /// One update from the caller's own rays: RayDatum (16 bytes) [task * raysPerProbe + ray] along rayDirections(),
+    /// from tasks()[task].origin. The caller makes the data visible to compute shader reads. Radiance that is not a
+    /// number or infinite counts as 0. Errors: invalidArgument (the range is too short for all rays, or its address is
+    /// not a multiple of 4), outOfMemory.
     Result<void> recordUpdate(VkCommandBuffer commands, const BufferRange& rayData, Profiler* profiler = nullptr);
 
-    /// The same with fixed rays, as Field::update: `fixedRays` holds FixedRayDatum (12 bytes) [probe * fixedRays + ray]
+    /// The same with fixed rays, as Field::update: `fixedRays` holds FixedRayDatum (12 bytes) [task * fixedRays + ray]
     /// along fixedRayDirections(); an empty range: none.
     Result<void> recordUpdate(VkCommandBuffer commands, const BufferRange& rayData, const BufferRange& fixedRays,
                               Profiler* profiler = nullptr);
@@ -296,18 +292,18 @@ public:
                              std::uint32_t count, Profiler* profiler = nullptr);
 
     /// The kQueryBindings layout bindings of `probegi/query.glsl`, for the given stages, from `firstBinding` on: the
-    /// volume's constants (uniform buffer), the irradiance and visibility atlases (combined image samplers), the
+    /// field's constants (uniform buffer), the irradiance and visibility atlases (combined image samplers), the
     /// probes' states (storage buffer).
     static std::array<VkDescriptorSetLayoutBinding, kQueryBindings> queryBindings(std::uint32_t firstBinding,
                                                                                   VkShaderStageFlags stages) noexcept;
-    /// Writes them into a descriptor set of the caller. Valid for the life of the volume.
+    /// Writes them into a descriptor set of the caller. Valid for the life of the field.
     void writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBinding) const;
 
     struct Impl;
     Impl& impl() const noexcept { return *m_impl; }
 
 private:
-    explicit ProbeVolume(std::unique_ptr<Impl> impl);
+    explicit GpuField(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> m_impl;
 };
 
@@ -334,7 +330,7 @@ struct ShadingSample {
 /// samples visible to compute shaders before and orders its own reads after: compute shader writes.
 /// Errors: outOfMemory (compiling the passes, the first time), invalidArgument (objects of different devices).
 PROBEGI_API Result<void> recordShading(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,
-                                       ProbeVolume* volume, VkDeviceAddress samples, std::uint32_t count,
+                                       GpuField* field, VkDeviceAddress samples, std::uint32_t count,
                                        bool diffuseOnly = false, Profiler* profiler = nullptr);
 
 /// A picture's linear values to 8-bit sRGB through the tone map, dithered as it says: `linear` is the address of
@@ -352,8 +348,9 @@ PROBEGI_API Result<std::unique_ptr<Tracer>> makeTracer(const Context& context, c
 
 /// A Field whose passes run on the GPU. Its update() accepts any Tracer: with one of makeTracer() on the same device
 /// everything stays on the GPU, with another the rays are traced and shaded by the CPU and uploaded.
-/// Errors: as ProbeVolume::create.
-PROBEGI_API Result<Field> makeField(const Context& context, const Device& device, const FieldDesc& desc);
+/// Errors: as GpuField::create.
+PROBEGI_API Result<Field> makeField(const Context& context, const Device& device, const FieldDesc& desc,
+                                    const FieldSettings& settings = {});
 
 /// GPU time of each pass of the field's last update and of its last batch of queries. Empty for a field of another
 /// backend, or where the device has no timestamps.

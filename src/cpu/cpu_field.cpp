@@ -25,12 +25,13 @@ double millisecondsSince(Clock::time_point start) {
 
 }  // namespace
 
-Result<Field> Field::create(const Context& context, const FieldDesc& desc) {
+Result<Field> Field::create(const Context& context, const FieldDesc& desc, const FieldSettings& settings) {
     if (auto ok = validateFieldDesc(desc); !ok) return ok.error();
+    if (auto ok = validateFieldSettings(settings); !ok) return ok.error();
     const FieldLayout layout(desc);
     if (layout.probes * layout.visibilityTexels > kMostVisibilityTexels) return probesDoNotFit(desc);
     try {
-        return makeFieldOn(context, desc, std::make_unique<CpuField>(context, desc));
+        return makeFieldOn(context, desc, settings, std::make_unique<CpuField>(context, desc));
     } catch (const std::bad_alloc&) {
         return probesDoNotFit(desc);
     }
@@ -40,35 +41,34 @@ CpuField::CpuField(const Context& context, const FieldDesc& desc)
     : m_context(context),
       m_desc(desc),
       m_layout(desc),
+      m_volumes(makeVolumes(desc)),
       m_storage(m_layout),
       m_irradianceTaps(makeTapTable(desc.irradianceTexels)),
       m_visibilityTaps(makeTapTable(desc.visibilityTexels)) {}
 
-FieldView CpuField::view(const FieldDesc& desc) const noexcept {
-    const glm::vec3& s = desc.grid.spacing;
-    return {.desc = &desc,
+FieldView CpuField::view(const FieldSettings& settings) const noexcept {
+    return {.desc = &m_desc,
+            .settings = &settings,
+            .volumes = m_volumes,
             .irradiance = m_storage.irradiance.data(),
             .visibility = m_storage.visibility.data(),
             .backfaceShare = m_storage.backfaceShare.data(),
             .fallbacks = &m_fallbacks,
             .irradianceTaps = &m_irradianceTaps,
-            .visibilityTaps = &m_visibilityTaps,
-            .inverseSpacing = 1.0f / s,
-            .minSpacing = std::min({s.x, s.y, s.z}),
-            .inverseMaxDistance = 1.0f / m_layout.maxDistance};
+            .visibilityTaps = &m_visibilityTaps};
 }
 
 void CpuField::blend(const UpdateFrame& frame, std::span<const RayDatum> rayData,
                      std::span<const FixedRayDatum> fixedRays, std::span<const kernels::EmitterLight> emitters) {
-    makeBlendWeights(m_context, frame.desc, frame.directions, m_weights);
-    BlendFrame how{frame.hysteresis, frame.linear, frame.ditherSeed};
-    if (frame.windows) how.steps = m_filter.chooseWindows(m_context, frame, m_layout, rayData, fixedRays, m_storage);
-    blendProbes(m_context, frame.desc, m_layout, m_weights, rayData, how, m_storage, emitters);
+    makeBlendWeights(m_context, m_desc, frame.settings.visibilityExponent, frame.directions, m_weights);
+    BlendFrame how{frame.tasks, frame.hysteresis, frame.linear, frame.ditherSeed};
+    if (frame.windows) how.steps = m_filter.chooseWindows(m_context, frame, m_volumes, rayData, fixedRays, m_storage);
+    blendProbes(m_context, m_desc, frame.settings, m_weights, rayData, how, m_storage, emitters);
     if (frame.windows)
-        m_filter.advance(m_context, frame, m_storage);
+        m_filter.advance(m_context, frame, m_volumes, m_storage);
     else
-        forgetFilters(m_storage, 1.0f / (1.0f - frame.hysteresis.irradiance));
-    findSolidProbes(m_context, view(frame.desc), m_storage.sides);
+        forgetFilters(frame.tasks, 1.0f / (1.0f - frame.hysteresis.irradiance), m_storage);
+    findSolidProbes(m_context, view(frame.settings), frame.tasks, m_storage.sides);
 }
 
 Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, std::span<const RayDatum> rayData,
@@ -81,21 +81,23 @@ Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, std::span<const R
 
 Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, const Tracer& tracer, const Lighting& lighting) {
     const auto start = Clock::now();
-    m_rayData.resize(m_layout.probes * m_layout.rays);
-    m_fixedRays.resize(m_layout.probes * frame.fixedDirections.size());
+    const std::size_t tasks = frame.tasks.size();
+    m_rayData.resize(tasks * m_layout.rays);
+    m_fixedRays.resize(tasks * frame.fixedDirections.size());
     TraceTimes sums;
-    const FieldView last = view(frame.desc);
+    const FieldView last = view(frame.settings);
     BounceQuery bounces;
     if (frame.bounces)
         bounces = [&](std::span<const FieldQuery> queries, std::span<glm::vec3> out) {
             queryIrradiance(last, queries, out);
             return Result<void>();
         };
-    const EmitterSearch emitters = emitterSearch(frame.desc, tracer, frame.raySeed);
-    m_emitterLights.resize(m_layout.probes * std::size_t(emitters.looks));
-    auto done = traceProbes(m_context, frame.desc.grid, {frame.directions, frame.fixedDirections}, tracer, lighting,
+    const EmitterSearch emitters = emitterSearch(m_desc, tracer, frame.raySeed);
+    m_emitterLights.resize(tasks * std::size_t(emitters.looks));
+    auto done = traceProbes(m_context, m_desc, frame.tasks, {frame.directions, frame.fixedDirections}, tracer, lighting,
                             bounces, emitters, {m_rayData, m_fixedRays}, sums);
-    if (done && emitters) done = lookAtEmitters(m_context, frame.desc.grid, emitters, tracer, m_emitterLights, sums);
+    if (done && emitters)
+        done = lookAtEmitters(m_context, m_desc, frame.tasks, emitters, tracer, m_emitterLights, sums);
     if (!done) return done.error();
     const double traced = millisecondsSince(start);
     blend(frame, m_rayData, m_fixedRays, m_emitterLights);
@@ -110,18 +112,18 @@ Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, const Tracer& tra
     return times;
 }
 
-Result<void> CpuField::irradiance(const FieldDesc& desc, std::span<const FieldQuery> queries,
+Result<void> CpuField::irradiance(const FieldSettings& settings, std::span<const FieldQuery> queries,
                                   std::span<glm::vec3> out) const {
-    const FieldView all = view(desc);
+    const FieldView all = view(settings);
     parallelFor(m_context, queries.size(), 1024, [&](std::size_t begin, std::size_t end) {
         queryIrradiance(all, queries.subspan(begin, end - begin), out.subspan(begin, end - begin));
     });
     return {};
 }
 
-glm::vec3 CpuField::irradiance(const FieldDesc& desc, const FieldQuery& query) const noexcept {
+glm::vec3 CpuField::irradiance(const FieldSettings& settings, const FieldQuery& query) const noexcept {
     glm::vec3 result;
-    queryIrradiance(view(desc), {&query, 1}, {&result, 1});
+    queryIrradiance(view(settings), {&query, 1}, {&result, 1});
     return result;
 }
 
@@ -153,12 +155,14 @@ float CpuField::probeBackfaceShare(int probe) const noexcept {
 }
 
 glm::vec3 CpuField::probeIrradiance(int probe, glm::vec3 normal) const noexcept {
-    return probegi::probeIrradiance(view(m_desc), probe, normal);
+    const FieldSettings any;
+    return probegi::probeIrradiance(view(any), probe, normal);
 }
 
 glm::vec2 CpuField::probeDistanceMoments(int probe, glm::vec3 direction) const noexcept {
-    const float d = m_layout.maxDistance;
-    return probeMoments(view(m_desc), probe, direction) * glm::vec2(d, d * d);
+    const FieldSettings any;
+    const float d = m_volumes[volumeOf(m_volumes, probe)].maxDistance;
+    return probeMoments(view(any), probe, direction) * glm::vec2(d, d * d);
 }
 
 }  // namespace probegi

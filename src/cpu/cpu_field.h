@@ -18,9 +18,9 @@ public:
     Result<UpdateTimes> update(const UpdateFrame& frame, std::span<const RayDatum> rayData,
                                std::span<const FixedRayDatum> fixedRays) override;
     Result<UpdateTimes> update(const UpdateFrame& frame, const Tracer& tracer, const Lighting& lighting) override;
-    Result<void> irradiance(const FieldDesc& desc, std::span<const FieldQuery> queries,
+    Result<void> irradiance(const FieldSettings& settings, std::span<const FieldQuery> queries,
                             std::span<glm::vec3> out) const override;
-    glm::vec3 irradiance(const FieldDesc& desc, const FieldQuery& query) const noexcept override;
+    glm::vec3 irradiance(const FieldSettings& settings, const FieldQuery& query) const noexcept override;
     Result<std::vector<float>> brightness() const override;
 
     FieldMemory memory() const noexcept override;
@@ -30,13 +30,14 @@ public:
     glm::vec2 probeDistanceMoments(int probe, glm::vec3 direction) const noexcept override;
 
 private:
-    FieldView view(const FieldDesc& desc) const noexcept;
+    FieldView view(const FieldSettings& settings) const noexcept;
     void blend(const UpdateFrame& frame, std::span<const RayDatum> rayData, std::span<const FixedRayDatum> fixedRays,
                std::span<const kernels::EmitterLight> emitters);
 
     Context m_context;
-    FieldDesc m_desc;  // as it was made: sizes, not the guard
+    FieldDesc m_desc;
     FieldLayout m_layout;
+    std::vector<kernels::Volume> m_volumes;
     FieldStorage m_storage;
     TapTable m_irradianceTaps, m_visibilityTaps;
     std::vector<RayDatum> m_rayData;

@@ -6,8 +6,8 @@
 
 namespace probegi {
 
-EmitterBlend::EmitterBlend(int size, std::span<const kernels::EmitterLight> lights, std::size_t probes)
-    : m_lights(lights), m_looks(lights.size() / probes) {
+EmitterBlend::EmitterBlend(int size, std::span<const kernels::EmitterLight> lights, std::size_t tasks)
+    : m_lights(lights), m_looks(lights.size() / tasks) {
     if (m_looks == 0) return;
     for (int texel = 0; texel < size * size; ++texel) {
         const glm::vec3 n = kernels::octTexelDirection(texel % size, texel / size, size);
@@ -19,11 +19,11 @@ EmitterBlend::EmitterBlend(int size, std::span<const kernels::EmitterLight> ligh
 
 void EmitterBlend::addTo(Matrix& means, std::size_t begin, std::size_t end) const {
     if (m_looks == 0) return;
-    for (std::size_t probe = begin; probe < end; ++probe) {
-        float* r = &means(3 * (probe - begin), 0);
-        float* g = &means(3 * (probe - begin) + 1, 0);
-        float* b = &means(3 * (probe - begin) + 2, 0);
-        for (const kernels::EmitterLight& l : m_lights.subspan(probe * m_looks, m_looks)) {
+    for (std::size_t task = begin; task < end; ++task) {
+        float* r = &means(3 * (task - begin), 0);
+        float* g = &means(3 * (task - begin) + 1, 0);
+        float* b = &means(3 * (task - begin) + 2, 0);
+        for (const kernels::EmitterLight& l : m_lights.subspan(task * m_looks, m_looks)) {
             if (l.light == glm::vec3(0.0f)) continue;
             for (std::size_t t = 0; t < m_x.size(); ++t) {
                 const float cosine =

@@ -11,15 +11,15 @@ namespace probegi {
 /// Adds what the probes' looks at emitters brought to the means of their rays.
 class EmitterBlend {
 public:
-    /// `size`: side of the irradiance map; `lights`: [probe][look], or empty. They must outlive this.
-    EmitterBlend(int size, std::span<const kernels::EmitterLight> lights, std::size_t probes);
+    /// `size`: side of the irradiance map; `lights`: [task][look], or empty. They must outlive this.
+    EmitterBlend(int size, std::span<const kernels::EmitterLight> lights, std::size_t tasks);
 
-    /// `means`: rows r, g, b over the texels for each of the probes `begin` to `end`.
+    /// `means`: rows r, g, b over the texels for each of the tasks `begin` to `end`.
     void addTo(Matrix& means, std::size_t begin, std::size_t end) const;
 
 private:
     std::span<const kernels::EmitterLight> m_lights;
-    std::size_t m_looks;               // a probe
+    std::size_t m_looks;               // a task
     std::vector<float> m_x, m_y, m_z;  // directions of the texels
 };
 

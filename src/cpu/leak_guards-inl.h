@@ -51,10 +51,10 @@ class MomentsGuard {
 public:
     explicit MomentsGuard(const FieldView& view)
         : m_size(view.desc->visibilityTexels),
-          m_half(std::uint32_t(std::uint64_t(probeCount(view.desc->grid)) * std::uint32_t(m_size * m_size) / 2)),
+          m_half(std::uint32_t(std::uint64_t(probeCount(*view.desc)) * std::uint32_t(m_size * m_size) / 2)),
           m_middle(reinterpret_cast<const std::int32_t*>(view.visibility + m_half)),
           m_taps(*view.visibilityTaps),
-          m_inverseMaxDistance(view.inverseMaxDistance) {
+          m_inverseMaxDistance(view.volumes[0].inverseMaxDistance) {
         for (int side = 0; side < 6; ++side) {
             const AxisTexels& texels = axisTexels(*view.visibilityTaps, m_size, side / 2, side % 2 == 1);
             for (int tap = 0; tap < 4; ++tap) m_axisTexels[tap][side] = texels[std::size_t(tap)];

@@ -50,16 +50,18 @@ struct BlockInput {
     bool weighted = false;
 };
 
-void gather(const FieldDesc& desc, const FieldLayout& layout, std::span<const RayDatum> data, std::size_t probes,
-            BlockInput& in) {
-    const std::size_t rays = layout.rays, rows = probes;
+// `data`: [task][ray].
+void gather(bool weighted, std::span<const kernels::Volume> volumes, std::span<const ProbeTask> tasks,
+            std::span<const RayDatum> data, BlockInput& in) {
+    const std::size_t rows = tasks.size(), rays = data.size() / rows;
     in.radiance.resize(3 * rows, rays);
     in.distance.resize(2 * rows, rays);
-    in.weighted = desc.backfaceRule == BackfaceRule::excluded;
+    in.weighted = weighted;
     if (in.weighted) in.valid.resize(rows, rays);
     in.seen.assign(rows, {});
     for (std::size_t p = 0; p < rows; ++p) {
         const RayDatum* row = data.data() + p * rays;
+        const float maxDistance = volumes[tasks[p].volume].maxDistance;
         kernels::SidesSeen& seen = in.seen[p];
         for (std::size_t r = 0; r < rays; ++r) {
             const RayDatum& d = row[r];
@@ -70,8 +72,7 @@ void gather(const FieldDesc& desc, const FieldLayout& layout, std::span<const Ra
             seen.backs += kernels::hitBack(distance) ? 1 : 0;
             seen.solidBacks += backface ? 1 : 0;
             for (int c = 0; c < 3; ++c) in.radiance(3 * p + c, r) = radiance[c];
-            const float fraction =
-                kernels::visibilityDistance(backface ? distance : std::abs(distance), layout.maxDistance);
+            const float fraction = kernels::visibilityDistance(backface ? distance : std::abs(distance), maxDistance);
             in.distance(2 * p, r) = fraction;
             in.distance(2 * p + 1, r) = fraction * fraction;
             if (in.weighted) in.valid(p, r) = backface ? 0.0f : 1.0f;
@@ -86,15 +87,20 @@ void divideByValidity(const Matrix& validity, Matrix& irradiance) {
             irradiance(row, texel) = kernels::withoutBackfaces(irradiance(row, texel), validity(row / 3, texel));
 }
 
-const FrameHysteresis& hysteresisOf(const BlendFrame& frame, std::size_t probe) {
-    return frame.steps.empty() ? frame.hysteresis : frame.steps[probe].hysteresis;
+const FrameHysteresis& hysteresisOf(const BlendFrame& frame, std::size_t task) {
+    return frame.steps.empty() ? frame.hysteresis : frame.steps[task].hysteresis;
 }
 
+// A probe that is blended. Dither goes by its number in the volume: a volume's probes do not depend on others.
+struct Probe {
+    std::size_t task, slot, number;
+};
+
 // One probe's new irradiance (rows r, g, b over the texels) joins the stored one.
-void storeIrradiance(const FieldDesc& desc, const BlendFrame& frame, const Matrix& mean, std::size_t row,
-                     std::size_t probe, std::size_t texels, std::uint16_t* map) {
-    const FrameHysteresis& hysteresis = hysteresisOf(frame, probe);
-    const kernels::BlendRule rule{hysteresis.irradiance, desc.significantChange, desc.newDistribution};
+void storeIrradiance(const FieldSettings& settings, const BlendFrame& frame, const Matrix& mean, std::size_t row,
+                     const Probe& probe, std::size_t texels, std::uint16_t* map) {
+    const FrameHysteresis& hysteresis = hysteresisOf(frame, probe.task);
+    const kernels::BlendRule rule{hysteresis.irradiance, settings.significantChange, settings.newDistribution};
     const float* r = &mean(row, 0);
     const float* g = &mean(row + 1, 0);
     const float* b = &mean(row + 2, 0);
@@ -104,7 +110,7 @@ void storeIrradiance(const FieldDesc& desc, const BlendFrame& frame, const Matri
         const glm::vec3 old(kernels::unpackHalf(stored[0]), kernels::unpackHalf(stored[1]),
                             kernels::unpackHalf(stored[2]));
         const glm::uvec3 bits = kernels::blendIrradianceTexel(old, newMean, rule, frame.linear, frame.ditherSeed,
-                                                              std::uint32_t(probe * texels + t));
+                                                              std::uint32_t(probe.number * texels + t));
         for (int c = 0; c < 3; ++c) stored[c] = std::uint16_t(bits[c]);
     }
 }
@@ -124,15 +130,15 @@ float changeOf(const Matrix& mean, std::size_t row, std::size_t texels, const st
     return kernels::relativeChange(change, int(texels));
 }
 
-void storeVisibility(const BlendFrame& frame, const Matrix& mean, std::size_t row, std::size_t probe,
+void storeVisibility(const BlendFrame& frame, const Matrix& mean, std::size_t row, const Probe& probe,
                      std::span<const float> evidence, std::uint32_t* map) {
     const std::size_t texels = evidence.size();
-    const float h = hysteresisOf(frame, probe).visibility;
+    const float h = hysteresisOf(frame, probe.task).visibility;
     const float* d = &mean(row, 0);
     const float* dd = &mean(row + 1, 0);
     for (std::size_t t = 0; t < texels; ++t)
         map[t] = kernels::blendVisibilityTexel(map[t], {d[t], dd[t]}, kernels::keptMoments(h, evidence[t]),
-                                               frame.ditherSeed, std::uint32_t(probe * texels + t));
+                                               frame.ditherSeed, std::uint32_t(probe.number * texels + t));
 }
 
 void storeSides(float kept, const kernels::SidesSeen& seen, int rays, kernels::ProbeSides& sides,
@@ -150,11 +156,10 @@ FieldStorage::FieldStorage(const FieldLayout& layout)
       backfaceShare(layout.probes),
       sides(layout.probes) {}
 
-void makeBlendWeights(const Context& context, const FieldDesc& desc, std::span<const glm::vec3> directions,
-                      BlendWeights& weights) {
+void makeBlendWeights(const Context& context, const FieldDesc& desc, float exponent,
+                      std::span<const glm::vec3> directions, BlendWeights& weights) {
     fillWeights(context, desc.irradianceTexels, directions, weights.irradiance,
                 [](glm::vec3 n) { return [n](glm::vec3 w) { return kernels::irradianceWeight(n, w); }; });
-    const float exponent = desc.visibilityExponent;
     weights.evidence = fillWeights(context, desc.visibilityTexels, directions, weights.visibility, [&](glm::vec3 n) {
         float nearest = 0;
         for (const glm::vec3& w : directions) nearest = std::max(nearest, glm::dot(n, w));
@@ -165,14 +170,18 @@ void makeBlendWeights(const Context& context, const FieldDesc& desc, std::span<c
         e = desc.rules == FieldRules::paper ? 1.0f : kernels::visibilityEvidence(e, exponent, int(directions.size()));
 }
 
-void blendProbes(const Context& context, const FieldDesc& desc, const FieldLayout& layout, const BlendWeights& weights,
-                 std::span<const RayDatum> rayData, const BlendFrame& frame, FieldStorage& storage,
-                 std::span<const kernels::EmitterLight> emitters) {
-    const EmitterBlend looks(desc.irradianceTexels, emitters, layout.probes);
-    parallelFor(context, layout.probes, kBlock, [&](std::size_t begin, std::size_t end) {
+void blendProbes(const Context& context, const FieldDesc& desc, const FieldSettings& settings,
+                 const BlendWeights& weights, std::span<const RayDatum> rayData, const BlendFrame& frame,
+                 FieldStorage& storage, std::span<const kernels::EmitterLight> emitters) {
+    const FieldLayout layout(desc);
+    const std::vector<kernels::Volume> volumes = makeVolumes(desc);
+    const bool weighted = settings.backfaceRule == BackfaceRule::excluded;
+    const EmitterBlend looks(desc.irradianceTexels, emitters, frame.tasks.size());
+    parallelFor(context, frame.tasks.size(), kBlock, [&](std::size_t begin, std::size_t end) {
         thread_local BlockInput in;
         thread_local Matrix irradiance, visibility, validity;
-        gather(desc, layout, rayData.subspan(begin * layout.rays, (end - begin) * layout.rays), end - begin, in);
+        const std::span<const ProbeTask> tasks = frame.tasks.subspan(begin, end - begin);
+        gather(weighted, volumes, tasks, rayData.subspan(begin * layout.rays, tasks.size() * layout.rays), in);
         multiply(in.radiance, weights.irradiance, irradiance);
         looks.addTo(irradiance, begin, end);
         multiply(in.distance, weights.visibility, visibility);
@@ -180,16 +189,17 @@ void blendProbes(const Context& context, const FieldDesc& desc, const FieldLayou
             multiply(in.valid, weights.irradiance, validity);
             divideByValidity(validity, irradiance);
         }
-        for (std::size_t probe = begin; probe < end; ++probe) {
-            const std::size_t row = probe - begin;
-            std::uint16_t* map = storage.irradiance.data() + 3 * probe * layout.irradianceTexels;
+        for (std::size_t row = 0; row < tasks.size(); ++row) {
+            const std::size_t slot = tasks[row].slot;
+            const Probe probe{begin + row, slot, slot - std::size_t(volumes[tasks[row].volume].firstSlot)};
+            std::uint16_t* map = storage.irradiance.data() + 3 * slot * layout.irradianceTexels;
             if (!frame.steps.empty())
-                frame.steps[probe].change = changeOf(irradiance, 3 * row, layout.irradianceTexels, map);
-            storeIrradiance(desc, frame, irradiance, 3 * row, probe, layout.irradianceTexels, map);
-            storeSides(hysteresisOf(frame, probe).visibility, in.seen[row], int(layout.rays), storage.sides[probe],
-                       storage.backfaceShare[probe]);
+                frame.steps[probe.task].change = changeOf(irradiance, 3 * row, layout.irradianceTexels, map);
+            storeIrradiance(settings, frame, irradiance, 3 * row, probe, layout.irradianceTexels, map);
+            storeSides(hysteresisOf(frame, probe.task).visibility, in.seen[row], int(layout.rays), storage.sides[slot],
+                       storage.backfaceShare[slot]);
             storeVisibility(frame, visibility, 2 * row, probe, weights.evidence,
-                            storage.visibility.data() + probe * layout.visibilityTexels);
+                            storage.visibility.data() + slot * layout.visibilityTexels);
         }
     });
 }

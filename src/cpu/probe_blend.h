@@ -18,8 +18,8 @@ struct BlendWeights {
 };
 
 /// Fills the weights for a frame's directions (eq. 1, and its power-cosine form for distances).
-void makeBlendWeights(const Context& context, const FieldDesc& desc, std::span<const glm::vec3> directions,
-                      BlendWeights& weights);
+void makeBlendWeights(const Context& context, const FieldDesc& desc, float visibilityExponent,
+                      std::span<const glm::vec3> directions, BlendWeights& weights);
 
 /// One probe's part of a blend with windows.
 struct ProbeStep {
@@ -30,17 +30,18 @@ struct ProbeStep {
 
 /// How the new values join the old ones.
 struct BlendFrame {
-    FrameHysteresis hysteresis;
+    std::span<const ProbeTask> tasks;  ///< the probes, in the order of their ray data
+    FrameHysteresis hysteresis{};
     bool linear = false;              ///< blendLinear instead of blendEncoded
     std::uint32_t ditherSeed = 0;     ///< differs between frames
-    std::span<ProbeStep> steps = {};  ///< [probe]: each with its own hysteresis; empty: all with `hysteresis`
+    std::span<ProbeStep> steps = {};  ///< [task]: each with its own hysteresis; empty: all with `hysteresis`
 };
 
-/// Blends the ray data of all probes into the storage: weights x data, then encoding, hysteresis and storage.
-/// rayData is [probe][ray]. Values that are not finite count as 0 radiance and as the farthest distance.
-/// `emitters`: what the probes' looks at emitters brought, [probe][look], or nothing.
-void blendProbes(const Context& context, const FieldDesc& desc, const FieldLayout& layout, const BlendWeights& weights,
-                 std::span<const RayDatum> rayData, const BlendFrame& frame, FieldStorage& storage,
-                 std::span<const kernels::EmitterLight> emitters = {});
+/// Blends the tasks' ray data into the storage: weights x data, then encoding, hysteresis and storage.
+/// rayData is [task][ray]. Values that are not finite count as 0 radiance and as the farthest distance.
+/// `emitters`: what the probes' looks at emitters brought, [task][look], or nothing.
+void blendProbes(const Context& context, const FieldDesc& desc, const FieldSettings& settings,
+                 const BlendWeights& weights, std::span<const RayDatum> rayData, const BlendFrame& frame,
+                 FieldStorage& storage, std::span<const kernels::EmitterLight> emitters = {});
 
 }  // namespace probegi

@@ -39,24 +39,24 @@ Footprint irradianceFootprint(const FieldView& view, glm::vec3 normal) {
 
 // How far one probe sees the point, as the field's guard has it.
 float neighbourVisibility(const FieldView& view, int probe, glm::vec3 fromProbe) {
-    if (view.desc->guard == LeakGuard::none) return 1.0f;
+    if (view.settings->guard == LeakGuard::none) return 1.0f;
     const float distance = glm::length(fromProbe) + kernels::kNoLength;
     return kernels::neighbourVisibility(probeMoments(view, probe, fromProbe / distance),
-                                        distance * view.inverseMaxDistance);
+                                        distance * view.volumes[0].inverseMaxDistance);
 }
 
 // The answer where the probes of the cage do not know (kernels/lookup/probe_neighbours.h). Black only where all
 // neighbours stand in walls.
 glm::vec3 queryNeighbours(const FieldView& view, FieldQuery query) {
-    const GridDesc& grid = view.desc->grid;
-    const float biasScale = view.desc->selfShadowBias;
+    const kernels::Volume& grid = view.volumes[0];
+    const float biasScale = view.settings->selfShadowBias;
     constexpr int rules = kernels::kRulesMeasured;
     query.toViewer = kernels::viewerOf(query.toViewer, query.normal);
     query.position = kernels::clampToGrid(query.position, grid.origin, grid.spacing, grid.counts);
-    const glm::vec3 bias = kernels::visibilityBias(query.normal, query.toViewer, view.minSpacing, biasScale, rules);
+    const glm::vec3 bias = kernels::visibilityBias(query.normal, query.toViewer, grid.minSpacing, biasScale, rules);
     const glm::vec3 local = kernels::gridCoordinates(
-        query.position + kernels::cageBias(query.normal, query.toViewer, view.minSpacing, biasScale, rules),
-        grid.origin, view.inverseSpacing);
+        query.position + kernels::cageBias(query.normal, query.toViewer, grid.minSpacing, biasScale, rules),
+        grid.origin, grid.inverseSpacing);
     const glm::ivec3 base(kernels::cageBase(local, grid.counts));
     const Footprint footprint = irradianceFootprint(view, query.normal);
     glm::vec3 sum(0.0f);
@@ -69,7 +69,7 @@ glm::vec3 queryNeighbours(const FieldView& view, FieldQuery query) {
         if (outside <= 0.0f) continue;
         const glm::vec3 toProbe = kernels::probePlace(cell, grid.origin, grid.spacing) - query.position;
         const float visible = neighbourVisibility(view, probe, bias - toProbe);
-        const float weight = kernels::neighbourWeight(outside, toProbe, query.normal, visible, view.minSpacing);
+        const float weight = kernels::neighbourWeight(outside, toProbe, query.normal, visible, grid.minSpacing);
         sum += weight * irradianceAt(view, probe, footprint);
         weightSum += weight;
     }

@@ -19,15 +19,14 @@ TapTable makeTapTable(int size);
 /// What a query reads: a view of a field on which nothing is checked.
 struct FieldView {
     const FieldDesc* desc = nullptr;
+    const FieldSettings* settings = nullptr;
+    std::span<const kernels::Volume> volumes{};
     const std::uint16_t* irradiance = nullptr;
     const std::uint32_t* visibility = nullptr;
     const float* backfaceShare = nullptr;
     std::atomic<std::uint64_t>* fallbacks = nullptr;  ///< counts the queries that no probe of their cage could answer
     const TapTable* irradianceTaps = nullptr;
     const TapTable* visibilityTaps = nullptr;
-    glm::vec3 inverseSpacing{1.0f};
-    float minSpacing = 1.0f;
-    float inverseMaxDistance = 1.0f;
 };
 
 /// E in W m^-2 at each query (section 2.2), on the calling thread.

@@ -111,16 +111,16 @@ struct Cages {
 // Steps 1 to 3 of section 2.2 for the eight probes around each point.
 template <int rules, class Guard>
 HWY_INLINE Cages weighProbes(const FieldView& view, const Guard& guard, const Real3& normal, Block& block) {
-    const GridDesc& grid = view.desc->grid;
-    const float biasScale = view.desc->selfShadowBias;
+    const kernels::Volume& grid = view.volumes[0];
+    const float biasScale = view.settings->selfShadowBias;
     const Real3 toViewer = lanes::viewerOf(load(block.toViewer), normal);
     const Real3 position = lanes::clampToGrid(load(block.position), grid.origin, grid.spacing, grid.counts);
-    const Real3 bias = lanes::visibilityBias(normal, toViewer, view.minSpacing, biasScale, rules);
+    const Real3 bias = lanes::visibilityBias(normal, toViewer, grid.minSpacing, biasScale, rules);
     // The cage and the trilinear weights belong to a point a little off the surface: on a wall that runs through a
     // layer of probes the answer would otherwise lean on that layer alone.
     const Real3 local =
-        lanes::gridCoordinates(position + lanes::cageBias(normal, toViewer, view.minSpacing, biasScale, rules),
-                               grid.origin, view.inverseSpacing);
+        lanes::gridCoordinates(position + lanes::cageBias(normal, toViewer, grid.minSpacing, biasScale, rules),
+                               grid.origin, grid.inverseSpacing);
     const Real3 base = lanes::cageBase(local, grid.counts);
     const Real3 alpha = lanes::cageAlpha(local, base);
     const Real3 toBase = base * grid.spacing - (position - grid.origin);
@@ -133,7 +133,7 @@ HWY_INLINE Cages weighProbes(const FieldView& view, const Guard& guard, const Re
         const Real3 d = toBase + Real3(glm::vec3(x, y, z) * grid.spacing);
         const Real length = lanes::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
         const Real product = d.x * normal.x + d.y * normal.y + d.z * normal.z;
-        const Real facing = lanes::backfaceWeight(lanes::cosineToProbe(product, length, view.minSpacing), rules);
+        const Real facing = lanes::backfaceWeight(lanes::cosineToProbe(product, length, grid.minSpacing), rules);
         const Int probe = first + Int(x + y * strideY + z * strideZ);
         const Real trilinear = lanes::trilinearFactor(float(x), alpha.x) * lanes::trilinearFactor(float(y), alpha.y) *
                                lanes::trilinearFactor(float(z), alpha.z);
@@ -161,7 +161,7 @@ HWY_INLINE Real component(const Int& axis, const Real3& v) {
 template <class Guard>
 HWY_INLINE Gradients weighPairs(const FieldView& view, const Guard& guard, const Real3& normal, const Cages& cages,
                                 Block& block) {
-    const GridDesc& grid = view.desc->grid;
+    const kernels::Volume& grid = view.volumes[0];
     const Int axis = lanes::dominantAxis(normal);
     const Mask alongX = axis == Int(0), alongZ = axis == Int(2);
     const Real onAxis = component(axis, normal);
@@ -276,7 +276,7 @@ void answerAll(const FieldView& view, std::span<const FieldQuery> queries, CageA
 
 template <int rules>
 void answerBy(const FieldView& view, std::span<const FieldQuery> queries, CageAnswer* out) {
-    switch (view.desc->guard) {
+    switch (view.settings->guard) {
         case LeakGuard::none:
             return answerAll<rules, NoGuard>(view, queries, out);
         case LeakGuard::moments:

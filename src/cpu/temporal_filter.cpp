@@ -4,8 +4,7 @@
 #include <glm/common.hpp>
 
 #include "core/parallel.h"
-#include "kernels/volume/gpu_volume.h"
-#include "kernels/volume/probe_cage.h"
+#include "kernels/volume/volume.h"
 
 namespace probegi {
 
@@ -13,19 +12,19 @@ namespace {
 
 constexpr std::size_t kProbesPerTask = 256;
 
-// The lag of a probe and the up to 26 around it.
-kernels::LagAround lagAround(const GridDesc& grid, std::span<const kernels::ProbeLag> lags, int probe) {
-    const glm::ivec3 at = kernels::gpuProbeCell(probe, grid.counts);
-    const glm::ivec3 lowest = glm::max(at - 1, glm::ivec3(0)), highest = glm::min(at + 1, grid.counts - 1);
+// The lag of a probe and the up to 26 around it in its volume.
+kernels::LagAround lagAround(const kernels::Volume& volume, std::span<const kernels::ProbeLag> lags, int slot) {
+    const glm::ivec3 at = kernels::probeCell(volume, slot);
+    const glm::ivec3 lowest = glm::max(at - 1, glm::ivec3(0)), highest = glm::min(at + 1, volume.counts - 1);
     const auto each = [&](const auto& visit) {
         for (int z = lowest.z; z <= highest.z; ++z)
             for (int y = lowest.y; y <= highest.y; ++y)
-                for (int x = lowest.x; x <= highest.x; ++x) visit(kernels::probeNumber({x, y, z}, grid.counts));
+                for (int x = lowest.x; x <= highest.x; ++x) visit(kernels::probeSlot(volume, {x, y, z}));
     };
     float brightest = 0;
     each([&](int other) { brightest = std::max(brightest, lags[std::size_t(other)].level); });
     kernels::LagAround around = kernels::noLag();
-    each([&](int other) { kernels::addLag(around, lags[std::size_t(other)], brightest, other == probe); });
+    each([&](int other) { kernels::addLag(around, lags[std::size_t(other)], brightest, other == slot); });
     return around;
 }
 
@@ -45,59 +44,68 @@ kernels::ProbeSight sightOf(std::span<const RayDatum> ownRays) {
 
 }  // namespace
 
-void TemporalFilter::measureLag(const Context& context, const UpdateFrame& frame, const FieldLayout& layout,
-                                std::span<const RayDatum> rayData, std::span<const FixedRayDatum> fixedRays,
-                                const FieldStorage& storage) {
-    const std::size_t rays = layout.rays, fixed = frame.fixedDirections.size();
-    m_sights.resize(layout.probes);
-    m_lags.resize(layout.probes);
-    parallelFor(context, layout.probes, kProbesPerTask, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p) {
-            m_sights[p] = fixed > 0
-                              ? sightOf(fixedRays.subspan(p * fixed, fixed), frame.fixedDirections, layout.maxDistance)
-                              : sightOf(rayData.subspan(p * rays, rays));
-            m_lags[p] = kernels::lagHeard(kernels::probeLag(m_sights[p], kernels::unpackFilter(storage.filters[p])),
-                                          storage.backfaceShare[p]);
+void TemporalFilter::measureLag(const Context& context, const UpdateFrame& frame,
+                                std::span<const kernels::Volume> volumes, std::span<const RayDatum> rayData,
+                                std::span<const FixedRayDatum> fixedRays, const FieldStorage& storage) {
+    const std::size_t rays = frame.directions.size(), fixed = frame.fixedDirections.size();
+    m_sights.resize(frame.tasks.size());
+    m_lags.resize(storage.filters.size());
+    if (!frame.whole()) std::fill(m_lags.begin(), m_lags.end(), kernels::ProbeLag{});
+    parallelFor(context, frame.tasks.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const ProbeTask& task = frame.tasks[i];
+            m_sights[i] = fixed > 0 ? sightOf(fixedRays.subspan(i * fixed, fixed), frame.fixedDirections,
+                                              volumes[task.volume].maxDistance)
+                                    : sightOf(rayData.subspan(i * rays, rays));
+            m_lags[task.slot] =
+                kernels::lagHeard(kernels::probeLag(m_sights[i], kernels::unpackFilter(storage.filters[task.slot])),
+                                  storage.backfaceShare[task.slot]);
         }
     });
 }
 
 std::span<ProbeStep> TemporalFilter::chooseWindows(const Context& context, const UpdateFrame& frame,
-                                                   const FieldLayout& layout, std::span<const RayDatum> rayData,
+                                                   std::span<const kernels::Volume> volumes,
+                                                   std::span<const RayDatum> rayData,
                                                    std::span<const FixedRayDatum> fixedRays, FieldStorage& storage) {
-    measureLag(context, frame, layout, rayData, fixedRays, storage);
-    m_steps.resize(layout.probes);
-    parallelFor(context, layout.probes, kProbesPerTask, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p) {
-            kernels::ProbeFilter filter = kernels::unpackFilter(storage.filters[p]);
-            const kernels::LagAround around = lagAround(frame.desc.grid, m_lags, int(p));
+    measureLag(context, frame, volumes, rayData, fixedRays, storage);
+    m_steps.resize(frame.tasks.size());
+    parallelFor(context, frame.tasks.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const ProbeTask& task = frame.tasks[i];
+            kernels::PackedProbeFilter& packed = storage.filters[task.slot];
+            kernels::ProbeFilter filter = kernels::unpackFilter(packed);
+            const kernels::LagAround around = lagAround(volumes[task.volume], m_lags, int(task.slot));
             const float lag = kernels::filterLag(around, filter.noise, filter.window, frame.fixedDirections.empty());
             filter.window = kernels::nextWindow(filter.window, filter.noise, lag, frame.longestWindow);
             filter.visibilityWindow =
                 kernels::nextVisibilityWindow(filter.visibilityWindow, around.distance, frame.longestVisibilityWindow);
-            m_steps[p] = {{kernels::keptBy(filter.window), kernels::keptBy(filter.visibilityWindow)}, lag, 0.0f};
-            storage.filters[p].words[5] = kernels::packWindows(filter.window, filter.visibilityWindow);
+            m_steps[i] = {{kernels::keptBy(filter.window), kernels::keptBy(filter.visibilityWindow)}, lag, 0.0f};
+            packed.words[5] = kernels::packWindows(filter.window, filter.visibilityWindow);
         }
     });
     return m_steps;
 }
 
-void TemporalFilter::advance(const Context& context, const UpdateFrame& frame, FieldStorage& storage) {
+void TemporalFilter::advance(const Context& context, const UpdateFrame& frame, std::span<const kernels::Volume> volumes,
+                             FieldStorage& storage) {
     parallelFor(context, m_steps.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p) {
-            kernels::ProbeFilter filter = kernels::unpackFilter(storage.filters[p]);
-            const ProbeStep& step = m_steps[p];
+        for (std::size_t i = begin; i < end; ++i) {
+            const ProbeTask& task = frame.tasks[i];
+            kernels::ProbeFilter filter = kernels::unpackFilter(storage.filters[task.slot]);
+            const ProbeStep& step = m_steps[i];
             filter.noise =
                 kernels::nextNoise(filter.noise, step.change, step.lag, filter.window, kernels::isUnknown(filter));
-            kernels::advanceFilter(filter, m_sights[p]);
-            storage.filters[p] =
-                kernels::packFilter(filter, kernels::storageDither(frame.ditherSeed, std::uint32_t(p)));
+            kernels::advanceFilter(filter, m_sights[i]);
+            const std::uint32_t number = task.slot - std::uint32_t(volumes[task.volume].firstSlot);
+            storage.filters[task.slot] = kernels::packFilter(filter, kernels::storageDither(frame.ditherSeed, number));
         }
     });
 }
 
-void forgetFilters(FieldStorage& storage, float window) {
-    std::fill(storage.filters.begin(), storage.filters.end(), kernels::forgottenFilter(window));
+void forgetFilters(std::span<const ProbeTask> tasks, float window, FieldStorage& storage) {
+    const kernels::PackedProbeFilter forgotten = kernels::forgottenFilter(window);
+    for (const ProbeTask& task : tasks) storage.filters[task.slot] = forgotten;
 }
 
 std::size_t TemporalFilter::bytes() const noexcept {

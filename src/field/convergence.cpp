@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "field/layout.h"
 #include "kernels/lookup/probe_query.h"
 #include "kernels/shade/bounce.h"
 
@@ -40,7 +41,7 @@ constexpr double kAverageVariance = 9.0 / 5.0;
 }  // namespace
 
 Convergence::Convergence(const FieldDesc& desc, float tolerance, int maxUpdates)
-    : m_grid(desc.grid),
+    : m_volumes(makeVolumes(desc)),
       m_probeNoise(kStorageNoise / desc.irradianceTexels),
       m_tolerance(tolerance),
       m_maxUpdates(maxUpdates) {}
@@ -82,14 +83,16 @@ void Convergence::observe(std::span<const float> brightness, std::span<const flo
 }
 
 void Convergence::makeRegions(std::span<const float> backfaceShares) {
-    const glm::ivec3 blocks = (m_grid.counts + kRegionSide - 1) / kRegionSide;
-    m_regions.resize(std::size_t(blocks.x * blocks.y * blocks.z));
-    for (int probe = 0; probe < probeCount(m_grid); ++probe) {
-        if (backfaceShares[std::size_t(probe)] > kernels::kInsideShare) continue;
-        const int row = probe / m_grid.counts.x;
-        const int x = probe % m_grid.counts.x / kRegionSide, y = row % m_grid.counts.y / kRegionSide,
-                  z = row / m_grid.counts.y / kRegionSide;
-        m_regions[std::size_t(x + blocks.x * (y + blocks.y * z))].probes.push_back(probe);
+    for (const kernels::Volume& volume : m_volumes) {
+        const glm::ivec3 blocks = (volume.counts + kRegionSide - 1) / kRegionSide;
+        const std::size_t first = m_regions.size();
+        m_regions.resize(first + std::size_t(blocks.x * blocks.y * blocks.z));
+        for (int i = 0; i < kernels::volumeProbes(volume); ++i) {
+            const int slot = volume.firstSlot + i;
+            if (backfaceShares[std::size_t(slot)] > kernels::kInsideShare) continue;
+            const glm::ivec3 block = kernels::probeCell(volume, slot) / kRegionSide;
+            m_regions[first + std::size_t(block.x + blocks.x * (block.y + blocks.y * block.z))].probes.push_back(slot);
+        }
     }
     std::erase_if(m_regions, [](const Region& region) { return region.probes.empty(); });
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "field/hysteresis.h"
+#include "kernels/volume/volume.h"
 
 namespace probegi {
 
@@ -63,7 +64,7 @@ private:
     void measureRate() noexcept;
     double updatesAhead(const Region& region) const noexcept;
 
-    GridDesc m_grid;
+    std::vector<kernels::Volume> m_volumes;
     double m_probeNoise;
     float m_tolerance;
     int m_maxUpdates;

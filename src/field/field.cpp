@@ -5,6 +5,7 @@
 
 #include "core/progress.h"
 #include "core/sentence.h"
+#include "field/control_impl.h"
 #include "field/convergence.h"
 #include "field/field_backend.h"
 
@@ -13,15 +14,40 @@ namespace probegi {
 namespace {
 
 constexpr const char* kNoRayDataMemory = "no memory for the update's ray data; use fewer probes or rays";
+
+// All probes take part in an average, whatever the tasks of updates are.
+class Averaging {
+public:
+    explicit Averaging(FieldControl::Impl& books)
+        : m_books(books), m_tasks(std::move(books.tasks)), m_list(books.taskList) {
+        books.setAllTasks();
+        books.setAveraging(true);
+    }
+    ~Averaging() {
+        m_books.tasks = std::move(m_tasks);
+        m_books.taskList = m_list;
+        m_books.setAveraging(false);
+    }
+    Averaging(const Averaging&) = delete;
+    Averaging& operator=(const Averaging&) = delete;
+
+private:
+    FieldControl::Impl& m_books;
+    std::vector<ProbeTask> m_tasks;
+    std::uint32_t m_list;
+};
+
 }  // namespace
 
 struct Field::Impl {
-    Impl(const Context& c, const FieldDesc& desc, std::unique_ptr<FieldBackend> b)
-        : context(c), books(desc), backend(std::move(b)) {}
+    Impl(const Context& c, const FieldDesc& desc, const FieldSettings& settings, std::unique_ptr<FieldBackend> b)
+        : context(c), control(makeFieldControl(desc, settings)), backend(std::move(b)) {}
+
+    FieldControl::Impl& books() noexcept { return control.impl(); }
 
     // A failed update is no frame: the next one has its rays and its dither.
     Result<UpdateTimes> ended(Result<UpdateTimes> times) {
-        if (times) books.advance();
+        if (times) books().advance();
         return times;
     }
 
@@ -44,12 +70,13 @@ struct Field::Impl {
     static const FieldBackend& backendOf(const Field& field) { return *field.m_impl->backend; }
 
     Context context;
-    FrameBooks books;
+    FieldControl control;
     std::unique_ptr<FieldBackend> backend;
 };
 
-Field makeFieldOn(const Context& context, const FieldDesc& desc, std::unique_ptr<FieldBackend> backend) {
-    return Field::Impl::make(std::make_unique<Field::Impl>(context, desc, std::move(backend)));
+Field makeFieldOn(const Context& context, const FieldDesc& desc, const FieldSettings& settings,
+                  std::unique_ptr<FieldBackend> backend) {
+    return Field::Impl::make(std::make_unique<Field::Impl>(context, desc, settings, std::move(backend)));
 }
 
 const FieldBackend& backendOf(const Field& field) noexcept {
@@ -57,8 +84,7 @@ const FieldBackend& backendOf(const Field& field) noexcept {
 }
 
 Error probesDoNotFit(const FieldDesc& desc) {
-    return {ErrorCode::outOfMemory,
-            sentence("no memory for ", probeCount(desc.grid), " probes; use fewer or smaller ones")};
+    return {ErrorCode::outOfMemory, sentence("no memory for ", probeCount(desc), " probes; use fewer or smaller ones")};
 }
 
 Field::Field(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
@@ -66,57 +92,41 @@ Field::Field(Field&&) noexcept = default;
 Field& Field::operator=(Field&&) noexcept = default;
 Field::~Field() = default;
 
-const FieldDesc& Field::desc() const noexcept {
-    return m_impl->books.desc();
+FieldControl& Field::control() noexcept {
+    return m_impl->control;
 }
-int Field::frame() const noexcept {
-    return m_impl->books.frame();
-}
-std::span<const glm::vec3> Field::rayDirections() const noexcept {
-    return m_impl->books.rayDirections();
-}
-std::span<const glm::vec3> Field::fixedRayDirections() const noexcept {
-    return m_impl->books.fixedRayDirections();
+const FieldControl& Field::control() const noexcept {
+    return m_impl->control;
 }
 std::uint64_t Field::fallbackQueries() const noexcept {
     return m_impl->backend->fallbackQueries();
 }
-void Field::notify(FieldEvent event) noexcept {
-    m_impl->books.notify(event);
-}
-void Field::setGuard(LeakGuard guard) noexcept {
-    m_impl->books.setGuard(guard);
-}
-
 FieldMemory Field::memory() const noexcept {
     FieldMemory memory = m_impl->backend->memory();
-    memory.stateBytes += m_impl->books.bytes();
+    memory.stateBytes += m_impl->books().bytes();
     return memory;
 }
 
 Result<UpdateTimes> Field::update(std::span<const RayDatum> rayData, std::span<const FixedRayDatum> fixedRays) try {
-    const FieldDesc& desc = m_impl->books.desc();
-    const std::size_t probes = std::size_t(probeCount(desc.grid));
-    const std::size_t expected = probes * std::size_t(desc.raysPerProbe);
-    if (rayData.size() != expected)
-        return fail(ErrorCode::invalidArgument, sentence("rayData has ", rayData.size(),
-                                                         " entries; it must have probes x raysPerProbe = ", expected));
-    const std::size_t expectedFixed = probes * m_impl->books.fixedRayDirections().size();
-    if (!fixedRays.empty() && fixedRays.size() != expectedFixed)
-        return fail(
-            ErrorCode::invalidArgument,
-            sentence("fixedRays has ", fixedRays.size(),
-                     " entries; it must be empty or have an entry for each probe and each of fixedRayDirections(), ",
-                     expectedFixed));
-    const UpdateFrame frame =
-        fixedRays.empty() ? m_impl->books.comingUpdateWithoutFixedRays() : m_impl->books.comingUpdate();
+    FieldControl::Impl& books = m_impl->books();
+    if (rayData.size() != books.rayCount())
+        return fail(ErrorCode::invalidArgument,
+                    sentence("rayData has ", rayData.size(),
+                             " entries; it must have tasks x raysPerProbe = ", books.rayCount()));
+    if (!fixedRays.empty() && fixedRays.size() != books.fixedRayCount())
+        return fail(ErrorCode::invalidArgument,
+                    sentence("fixedRays has ", fixedRays.size(),
+                             " entries; it must be empty or have an entry for each task and each of "
+                             "fixedRayDirections(), ",
+                             books.fixedRayCount()));
+    const UpdateFrame frame = fixedRays.empty() ? books.comingUpdateWithoutFixedRays() : books.comingUpdate();
     return m_impl->ended(m_impl->backend->update(frame, rayData, fixedRays));
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, kNoRayDataMemory);
 }
 
 Result<UpdateTimes> Field::update(const Tracer& tracer, const Lighting& lighting) try {
-    return m_impl->ended(m_impl->backend->update(m_impl->books.comingUpdate(), tracer, lighting));
+    return m_impl->ended(m_impl->backend->update(m_impl->books().comingUpdate(), tracer, lighting));
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, kNoRayDataMemory);
 }
@@ -127,17 +137,14 @@ Result<ConvergeResult> Field::converge(const Tracer& tracer, const Lighting& lig
     if (maxFrames < 1) return fail(ErrorCode::invalidArgument, "maxFrames must be at least 1");
     Impl& m = *m_impl;
     Progress progress(m.context, "converging probes", maxFrames);
-    Convergence convergence(m.books.desc(), tolerance, maxFrames);
-    const struct Averaging {
-        FrameBooks& books;
-        explicit Averaging(FrameBooks& b) : books(b) { books.setAveraging(true); }
-        ~Averaging() { books.setAveraging(false); }
-    } averaging(m.books);
+    FieldControl::Impl& books = m.books();
+    Convergence convergence(books.desc, tolerance, maxFrames);
+    const Averaging averaging(books);
     while (convergence.updates() < maxFrames && !convergence.converged()) {
-        const auto times = m.backend->update(m.books.comingAverage(convergence.kept()), tracer, lighting);
+        const auto times = m.backend->update(books.comingAverage(convergence.kept()), tracer, lighting);
         if (!times) return times.error();
         const auto observed = m.observe(convergence);
-        m.books.advance(convergence.turnsRays());
+        books.advance(convergence.turnsRays());
         if (!observed) return observed.error();
         if (onUpdate) onUpdate(*times);
         if (!progress.advance()) return fail(ErrorCode::cancelled, "cancelled while converging probes");
@@ -148,14 +155,14 @@ Result<ConvergeResult> Field::converge(const Tracer& tracer, const Lighting& lig
 }
 
 glm::vec3 Field::irradiance(const FieldQuery& query) const noexcept {
-    return m_impl->backend->irradiance(m_impl->books.desc(), query);
+    return m_impl->backend->irradiance(m_impl->control.settings(), query);
 }
 
 Result<void> Field::irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> out) const try {
     if (queries.size() != out.size())
         return fail(ErrorCode::invalidArgument, sentence("there are ", queries.size(), " queries and room for ",
                                                          out.size(), " answers; both spans must be equally long"));
-    return m_impl->backend->irradiance(m_impl->books.desc(), queries, out);
+    return m_impl->backend->irradiance(m_impl->control.settings(), queries, out);
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, "no memory for this many queries; ask for fewer at a time");
 }

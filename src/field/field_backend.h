@@ -1,28 +1,28 @@
 #pragma once
 
-#include "field/frame_books.h"
+#include "field/update_frame.h"
 
 namespace probegi {
 
-/// The third axis of the pipeline: where a field's passes run and where its probes lie. Field keeps the frame's books
-/// (directions, hysteresis, convergence) and calls one of these. One thread updates at a time; queries may be
+/// The third axis of the pipeline: where a field's passes run and where its probes lie. FieldControl keeps the
+/// books (probes, directions, hysteresis) and calls one of these. One thread updates at a time; queries may be
 /// concurrent with each other. Functions that return a Result may throw std::bad_alloc, which Field turns into an
 /// Error.
 class FieldBackend {
 public:
     virtual ~FieldBackend() = default;
 
-    /// Blends ray data [probe * raysPerProbe + ray] into the probes; `fixedRays` are [probe * fixedRays + ray], or
+    /// Blends ray data [task * raysPerProbe + ray] into the probes; `fixedRays` are [task * fixedRays + ray], or
     /// none. The lengths were checked: fixedRays is empty exactly where the frame's fixedDirections are.
     virtual Result<UpdateTimes> update(const UpdateFrame& frame, std::span<const RayDatum> rayData,
                                        std::span<const FixedRayDatum> fixedRays) = 0;
-    /// Traces and shades the rays of all probes, then blends.
+    /// Traces and shades the rays of the tasks, then blends.
     virtual Result<UpdateTimes> update(const UpdateFrame& frame, const Tracer& tracer, const Lighting& lighting) = 0;
     /// E in W m^-2 at each query.
-    virtual Result<void> irradiance(const FieldDesc& desc, std::span<const FieldQuery> queries,
+    virtual Result<void> irradiance(const FieldSettings& settings, std::span<const FieldQuery> queries,
                                     std::span<glm::vec3> out) const = 0;
     /// The same for one; not a number where the backend failed.
-    virtual glm::vec3 irradiance(const FieldDesc& desc, const FieldQuery& query) const noexcept = 0;
+    virtual glm::vec3 irradiance(const FieldSettings& settings, const FieldQuery& query) const noexcept = 0;
     /// Mean stored radiance of every probe over directions and channels.
     virtual Result<std::vector<float>> brightness() const = 0;
 
@@ -33,8 +33,9 @@ public:
     virtual glm::vec2 probeDistanceMoments(int probe, glm::vec3 direction) const noexcept = 0;
 };
 
-/// A Field on a backend. The desc must be valid.
-Field makeFieldOn(const Context& context, const FieldDesc& desc, std::unique_ptr<FieldBackend> backend);
+/// A Field on a backend. The desc and settings must be valid.
+Field makeFieldOn(const Context& context, const FieldDesc& desc, const FieldSettings& settings,
+                  std::unique_ptr<FieldBackend> backend);
 /// The backend of a Field.
 const FieldBackend& backendOf(const Field& field) noexcept;
 /// outOfMemory, in the words that every backend uses where its probes do not fit.

@@ -25,12 +25,12 @@ void HysteresisSchedule::notify(FieldEvent event) noexcept {
     }
 }
 
-FrameHysteresis HysteresisSchedule::current(const FieldDesc& desc, bool firstFrame) const noexcept {
+FrameHysteresis HysteresisSchedule::current(const FieldSettings& settings, bool firstFrame) const noexcept {
     if (firstFrame) return {};
     const auto factor = [](const Reduction& r) { return r.framesLeft > 0 ? r.factor : 1.0f; };
     // Overlapping events: the stronger one counts.
-    return {desc.hysteresis * std::min(factor(m_smallLight), factor(m_large)),
-            desc.visibilityHysteresis * factor(m_visibility)};
+    return {settings.hysteresis * std::min(factor(m_smallLight), factor(m_large)),
+            settings.visibilityHysteresis * factor(m_visibility)};
 }
 
 void HysteresisSchedule::advance() noexcept {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "probegi/field.h"
+#include "probegi/control.h"
 
 namespace probegi {
 
@@ -10,13 +10,13 @@ struct FrameHysteresis {
     float visibility = 0;
 };
 
-/// Which hysteresis the coming update uses: the described one, lowered for a few frames after announced changes
+/// Which hysteresis the coming update uses: that of the settings, lowered for a few frames after announced changes
 /// (section 4.3: "reduce irradiance hysteresis by 15% for four frames", and so on), 0 for the first update.
 class HysteresisSchedule {
 public:
     void notify(FieldEvent event) noexcept;
     /// The coming frame's values. Does not advance.
-    FrameHysteresis current(const FieldDesc& desc, bool firstFrame) const noexcept;
+    FrameHysteresis current(const FieldSettings& settings, bool firstFrame) const noexcept;
     /// Whether an announced change lowers the coming frame's irradiance hysteresis.
     bool irradianceEvent() const noexcept { return m_smallLight.framesLeft > 0 || m_large.framesLeft > 0; }
     /// Whether one lowers its visibility hysteresis.

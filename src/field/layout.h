@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <glm/geometric.hpp>
+#include <span>
+#include <vector>
 
+#include "kernels/volume/volume.h"
 #include "probegi/field.h"
 
 namespace probegi {
@@ -19,20 +21,28 @@ inline constexpr float kLargestSpacing = 1e9f;
 /// border's texels are found by octWrapTexel instead of being stored a second time.
 struct FieldLayout {
     explicit FieldLayout(const FieldDesc& d)
-        : probes(std::size_t(probeCount(d.grid))),
+        : probes(std::size_t(probeCount(d))),
           rays(std::size_t(d.raysPerProbe)),
           irradianceTexels(std::size_t(d.irradianceTexels) * d.irradianceTexels),
-          visibilityTexels(std::size_t(d.visibilityTexels) * d.visibilityTexels),
-          maxDistance(kMaxDistanceInDiagonals * glm::length(d.grid.spacing)) {}
+          visibilityTexels(std::size_t(d.visibilityTexels) * d.visibilityTexels) {}
 
     std::size_t probes;
     std::size_t rays;              ///< a probe
     std::size_t irradianceTexels;  ///< a probe
     std::size_t visibilityTexels;  ///< a probe
-    float maxDistance;             ///< metres; stored distances are fractions of it
 };
 
-/// Checks every member. Errors: invalidArgument.
+/// A field's volumes as kernels know them, in the order of the desc.
+std::vector<kernels::Volume> makeVolumes(const FieldDesc& desc);
+
+/// Which volume has the probe in a slot.
+std::size_t volumeOf(std::span<const kernels::Volume> volumes, int slot);
+
+/// Farthest distance that a volume's probes store, metres; stored distances are fractions of it.
+float maxDistance(const VolumeDesc& volume);
+
+/// Check every member. Errors: invalidArgument.
 Result<void> validateFieldDesc(const FieldDesc& desc);
+Result<void> validateFieldSettings(const FieldSettings& settings);
 
 }  // namespace probegi

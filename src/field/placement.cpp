@@ -36,7 +36,7 @@ float cubicSpacing(glm::vec3 size, int target, float marginCells) {
 
 }  // namespace
 
-Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc) {
+Result<VolumeDesc> placeVolume(const Bounds& bounds, const PlacementDesc& desc) {
     const glm::vec3 size = bounds.size();
     const float largest = std::max({size.x, size.y, size.z});
     if (!std::isfinite(largest) || !(largest > 0))
@@ -46,7 +46,7 @@ Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc) {
 
     // A flat axis still gets a cell, and a little room so that the scene never lies on the grid's very face.
     const glm::vec3 padded = glm::max(size, glm::vec3(largest * 1e-3f));
-    GridDesc grid;
+    VolumeDesc grid;
     if (desc.counts == glm::ivec3(0)) {
         if (desc.targetProbes < 8 || desc.targetProbes > 1 << 24)
             return fail(ErrorCode::invalidArgument,
@@ -74,9 +74,9 @@ Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc) {
     return grid;
 }
 
-Result<GridDesc> placeGrid(const Tracer& tracer, const PlacementDesc& desc) {
+Result<VolumeDesc> placeVolume(const Tracer& tracer, const PlacementDesc& desc) {
     const Bounds bounds = tracer.bounds();
-    auto grid = placeGrid(bounds, desc);
+    auto grid = placeVolume(bounds, desc);
     if (!grid) return grid;
     const auto walls = findWalls(tracer);
     if (!walls) return walls.error();

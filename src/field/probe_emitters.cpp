@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "field/layout.h"
 #include "geometry/lighting.h"
 #include "kernels/blend/probe_blend.h"
 
@@ -74,20 +75,22 @@ EmitterSearch emitterSearch(const FieldDesc& desc, const Tracer& tracer, std::ui
     return {set, desc.raysPerProbe, looks, frameSeed};
 }
 
-Result<void> lookAtEmitters(const Context& context, const GridDesc& grid, const EmitterSearch& search,
-                            const Tracer& tracer, std::span<kernels::EmitterLight> out, TraceTimes& times) {
+Result<void> lookAtEmitters(const Context& context, const FieldDesc& desc, std::span<const ProbeTask> tasks,
+                            const EmitterSearch& search, const Tracer& tracer, std::span<kernels::EmitterLight> out,
+                            TraceTimes& times) {
     const float magnitude = sceneMagnitude(tracer.bounds());
     const std::size_t looks = std::size_t(search.looks);
+    const std::vector<kernels::Volume> volumes = makeVolumes(desc);
     const auto look = [&](std::size_t begin, std::size_t end) -> Result<void> {
         thread_local TaskBuffers b;
         const auto start = Clock::now();
         b.rays.clear();
         b.aims.clear();
         b.materials.clear();
-        for (std::size_t probe = begin; probe < end; ++probe) {
-            const std::uint32_t seed = kernels::emitterSeed(search.seed, std::uint32_t(probe));
-            for (std::uint32_t i = 0; i < std::uint32_t(looks); ++i)
-                aim(probePosition(grid, int(probe)), seed, i, search, magnitude, b);
+        for (const ProbeTask& task : tasks.subspan(begin, end - begin)) {
+            const std::uint32_t number = task.slot - std::uint32_t(volumes[task.volume].firstSlot);
+            const std::uint32_t seed = kernels::emitterSeed(search.seed, number);
+            for (std::uint32_t i = 0; i < std::uint32_t(looks); ++i) aim(task.origin, seed, i, search, magnitude, b);
         }
         b.hits.resize(b.rays.size());
         b.surfaces.resize(b.rays.size());
@@ -99,7 +102,7 @@ Result<void> lookAtEmitters(const Context& context, const GridDesc& grid, const 
         times.shadeNs += nanoseconds(Clock::now() - traced);
         return {};
     };
-    return tryParallelFor(context, std::size_t(probeCount(grid)), kLooksPerTask / looks, look);
+    return tryParallelFor(context, tasks.size(), kLooksPerTask / looks, look);
 }
 
 }  // namespace probegi

@@ -30,9 +30,10 @@ inline int emitterLooks(const FieldDesc& desc) noexcept {
 /// The search of an update; none where the tracer knows no emitters. `frameSeed`: UpdateFrame::ditherSeed.
 EmitterSearch emitterSearch(const FieldDesc& desc, const Tracer& tracer, std::uint32_t frameSeed);
 
-/// What all probes' looks bring home, as [probe][look], on the context's threads. The search must not be empty.
-/// Errors: those of the tracer.
-Result<void> lookAtEmitters(const Context& context, const GridDesc& grid, const EmitterSearch& search,
-                            const Tracer& tracer, std::span<kernels::EmitterLight> out, TraceTimes& times);
+/// What the looks of the tasks' probes bring home, as [task][look], on the context's threads. The search must not be
+/// empty. Errors: those of the tracer.
+Result<void> lookAtEmitters(const Context& context, const FieldDesc& desc, std::span<const ProbeTask> tasks,
+                            const EmitterSearch& search, const Tracer& tracer, std::span<kernels::EmitterLight> out,
+                            TraceTimes& times);
 
 }  // namespace probegi

@@ -36,11 +36,11 @@ struct RayLight {
     bool back = false;                      // from the back of a surface with two sides: see RayDatum
 };
 
-// Everything a task needs, kept between tasks of a thread. What has an entry for each ray is as long as the longest
+// Everything a batch needs, kept between batches of a thread. What has an entry for each ray is as long as the longest
 // batch, and filled in place, field by field: whole structs would go through memory twice.
-struct TaskBuffers {
-    std::vector<std::uint32_t> probes;
-    std::vector<glm::vec3> origins;  // of the probes
+struct BatchBuffers {
+    std::span<const std::uint32_t> tasks;
+    std::vector<glm::vec3> origins;  // of their rays
     std::vector<Ray> rays, shadowRays;
     std::vector<Hit> hits;
     std::vector<Surface> surfaces;
@@ -68,7 +68,7 @@ struct Batch {
 };
 
 std::vector<Batch> makeBatches(std::span<const OrderedDirection> update, std::span<const OrderedDirection> fixed) {
-    constexpr std::size_t kMost = kRaysPerBatch / ProbeBlocks::kMostProbes;
+    constexpr std::size_t kMost = kRaysPerBatch / TaskBlocks::kMostTasks;
     std::vector<Batch> batches;
     const auto add = [&](std::span<const OrderedDirection> all, bool isFixed) {
         for (std::size_t begin = 0; begin < all.size(); begin += kMost)
@@ -80,7 +80,7 @@ std::vector<Batch> makeBatches(std::span<const OrderedDirection> update, std::sp
 }
 
 // Rays of one direction side by side. Returns how many.
-std::size_t makeRays(const Batch& batch, TaskBuffers& b) {
+std::size_t makeRays(const Batch& batch, BatchBuffers& b) {
     const std::size_t count = batch.directions.size() * b.origins.size();
     b.reserve(count);
     Ray* ray = b.rays.data();
@@ -94,7 +94,7 @@ std::size_t makeRays(const Batch& batch, TaskBuffers& b) {
 }
 
 // Irradiance from punctual lights, in b.irradiance.
-Result<void> gatherDirectLight(const Tracer& tracer, const Lighting& lighting, float magnitude, TaskBuffers& b) {
+Result<void> gatherDirectLight(const Tracer& tracer, const Lighting& lighting, float magnitude, BatchBuffers& b) {
     std::fill_n(b.irradiance.begin(), b.lit.size(), glm::vec3(0));
     for (const PlacedLight& light : lighting.lights) {
         std::size_t count = 0;
@@ -122,7 +122,7 @@ Result<void> gatherDirectLight(const Tracer& tracer, const Lighting& lighting, f
 }
 
 // Irradiance of earlier bounces at the hits: last frame's field (section 2.3).
-Result<void> queryBounces(const BounceQuery& bounces, TaskBuffers& b) {
+Result<void> queryBounces(const BounceQuery& bounces, BatchBuffers& b) {
     const std::size_t count = b.lit.size();
     if (!bounces) {
         std::fill_n(b.bounced.begin(), count, glm::vec3(0));
@@ -140,7 +140,7 @@ Result<void> queryBounces(const BounceQuery& bounces, TaskBuffers& b) {
 
 // Distances and the radiance that does not depend on other light; lists the hits that reflect.
 void resolveHits(const Lighting& lighting, const EmitterSearch& emitters, const Batch& batch, std::size_t count,
-                 TaskBuffers& b) {
+                 BatchBuffers& b) {
     b.lit.clear();
     for (std::uint32_t i = 0; i < count; ++i) {
         const Hit& hit = b.hits[i];
@@ -174,22 +174,22 @@ FixedRayDatum fixedDatum(const RayLight& light) {
             light.back ? -light.distance : light.distance};
 }
 
-void writeData(const ProbeRayDirections& directions, const Batch& batch, const TaskBuffers& b,
+void writeData(const ProbeRayDirections& directions, const Batch& batch, const BatchBuffers& b,
                const ProbeRayData& out) {
     const RayLight* light = b.light.data();
     for (const OrderedDirection& d : batch.directions)
-        for (const std::size_t probe : b.probes) {
+        for (const std::size_t task : b.tasks) {
             if (batch.fixed)
-                out.fixed[probe * directions.fixed.size() + d.index] = fixedDatum(*light);
+                out.fixed[task * directions.fixed.size() + d.index] = fixedDatum(*light);
             else
-                out.update[probe * directions.update.size() + d.index] = updateDatum(*light);
+                out.update[task * directions.update.size() + d.index] = updateDatum(*light);
             ++light;
         }
 }
 
 // What a batch's rays bring home, from their hits on.
 Result<void> shadeBatch(const Tracer& tracer, const Lighting& lighting, float magnitude, const BounceQuery& bounces,
-                        const EmitterSearch& emitters, const Batch& batch, std::size_t count, TaskBuffers& b) {
+                        const EmitterSearch& emitters, const Batch& batch, std::size_t count, BatchBuffers& b) {
     const std::span<Surface> surfaces(b.surfaces.data(), count);
     if (auto seen = tracer.surfaces({b.rays.data(), count}, {b.hits.data(), count}, surfaces); !seen) return seen;
     resolveHits(lighting, emitters, batch, count, b);
@@ -206,13 +206,14 @@ Result<void> shadeBatch(const Tracer& tracer, const Lighting& lighting, float ma
 
 }  // namespace
 
-Result<void> traceProbes(const Context& context, const GridDesc& grid, const ProbeRayDirections& directions,
-                         const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces,
-                         const EmitterSearch& emitters, const ProbeRayData& out, TraceTimes& times) {
+Result<void> traceProbes(const Context& context, const FieldDesc& desc, std::span<const ProbeTask> tasks,
+                         const ProbeRayDirections& directions, const Tracer& tracer, const Lighting& lighting,
+                         const BounceQuery& bounces, const EmitterSearch& emitters, const ProbeRayData& out,
+                         TraceTimes& times) {
     const float magnitude = sceneMagnitude(tracer.bounds());
-    const ProbeBlocks blocks(grid);
+    const TaskBlocks blocks(desc, tasks);
     const std::vector<OrderedDirection> update = alongCurve(directions.update), fixed = alongCurve(directions.fixed);
-    const auto traceBatch = [&](const Batch& batch, TaskBuffers& b) -> Result<void> {
+    const auto traceBatch = [&](const Batch& batch, BatchBuffers& b) -> Result<void> {
         const auto start = Clock::now();
         const std::size_t count = makeRays(batch, b);
         if (auto hit = tracer.closestHits({b.rays.data(), count}, {b.hits.data(), count}); !hit) return hit;
@@ -225,14 +226,14 @@ Result<void> traceProbes(const Context& context, const GridDesc& grid, const Pro
         return {};
     };
     const std::vector<Batch> batches = makeBatches(update, fixed);
-    const auto traceTask = [&](std::size_t task, std::size_t) -> Result<void> {
-        thread_local TaskBuffers b;
-        blocks.probesOf(task / batches.size(), b.probes);
+    const auto traceOne = [&](std::size_t number, std::size_t) -> Result<void> {
+        thread_local BatchBuffers b;
+        b.tasks = blocks.tasksOf(number / batches.size());
         b.origins.clear();
-        for (const std::uint32_t probe : b.probes) b.origins.push_back(probePosition(grid, int(probe)));
-        return traceBatch(batches[task % batches.size()], b);
+        for (const std::uint32_t task : b.tasks) b.origins.push_back(tasks[task].origin);
+        return b.tasks.empty() ? Result<void>() : traceBatch(batches[number % batches.size()], b);
     };
-    return tryParallelFor(context, blocks.count() * batches.size(), 1, traceTask);
+    return tryParallelFor(context, blocks.count() * batches.size(), 1, traceOne);
 }
 
 }  // namespace probegi

@@ -25,17 +25,18 @@ struct ProbeRayDirections {
     std::span<const glm::vec3> fixed;   ///< of the rays that measure lag; may be empty
 };
 
-/// What they bring home: [probe][ray] of each kind.
+/// What they bring home: [task][ray] of each kind.
 struct ProbeRayData {
     std::span<RayDatum> update;
     std::span<FixedRayDatum> fixed;
 };
 
-/// Traces and shades the rays of all probes on the context's threads, with any tracer: closest hits, surfaces, punctual
+/// Traces and shades the rays of the tasks on the context's threads, with any tracer: closest hits, surfaces, punctual
 /// lights with shadow rays, emission (of update rays as far as `emitters` leaves it to them), sky, and the light of
 /// earlier bounces (empty: none). Fills `out`. Errors: those of the tracer and of `bounces`.
-Result<void> traceProbes(const Context& context, const GridDesc& grid, const ProbeRayDirections& directions,
-                         const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces,
-                         const EmitterSearch& emitters, const ProbeRayData& out, TraceTimes& times);
+Result<void> traceProbes(const Context& context, const FieldDesc& desc, std::span<const ProbeTask> tasks,
+                         const ProbeRayDirections& directions, const Tracer& tracer, const Lighting& lighting,
+                         const BounceQuery& bounces, const EmitterSearch& emitters, const ProbeRayData& out,
+                         TraceTimes& times);
 
 }  // namespace probegi

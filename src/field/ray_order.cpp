@@ -2,16 +2,21 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <numeric>
 
+#include "field/layout.h"
 #include "kernels/probe/octahedral.h"
-#include "kernels/volume/probe_cage.h"
 
 namespace probegi {
 
 namespace {
 
 constexpr glm::ivec3 kBlock{2, 2, 4};
-static_assert(kBlock.x * kBlock.y * kBlock.z == ProbeBlocks::kMostProbes);
+static_assert(kBlock.x * kBlock.y * kBlock.z == TaskBlocks::kMostTasks);
+
+glm::ivec3 boxesOf(const kernels::Volume& volume) {
+    return (volume.counts + kBlock - 1) / kBlock;
+}
 
 // Bits of x and y in turn, x lowest: a curve over the square (Morton).
 std::uint32_t interleaved(std::uint32_t x, std::uint32_t y) {
@@ -27,22 +32,25 @@ std::uint32_t placeOnCurve(glm::vec3 direction) {
 
 }  // namespace
 
-ProbeBlocks::ProbeBlocks(const GridDesc& grid) : m_counts(grid.counts), m_blocks((grid.counts + kBlock - 1) / kBlock) {}
-
-std::size_t ProbeBlocks::count() const noexcept {
-    return std::size_t(m_blocks.x) * std::size_t(m_blocks.y) * std::size_t(m_blocks.z);
-}
-
-void ProbeBlocks::probesOf(std::size_t block, std::vector<std::uint32_t>& probes) const {
-    const int number = int(block);
-    const glm::ivec3 lower =
-        kBlock * glm::ivec3(number % m_blocks.x, number / m_blocks.x % m_blocks.y, number / (m_blocks.x * m_blocks.y));
-    const glm::ivec3 upper = glm::min(lower + kBlock, m_counts);
-    probes.clear();
-    for (int z = lower.z; z < upper.z; ++z)
-        for (int y = lower.y; y < upper.y; ++y)
-            for (int x = lower.x; x < upper.x; ++x)
-                probes.push_back(std::uint32_t(kernels::probeNumber({x, y, z}, m_counts)));
+TaskBlocks::TaskBlocks(const FieldDesc& desc, std::span<const ProbeTask> tasks) : m_tasks(tasks.size()) {
+    const std::vector<kernels::Volume> volumes = makeVolumes(desc);
+    std::vector<std::uint32_t> firstBlock;
+    std::uint32_t blocks = 0;
+    for (const kernels::Volume& v : volumes) {
+        firstBlock.push_back(blocks);
+        const glm::ivec3 boxes = boxesOf(v);
+        blocks += std::uint32_t(boxes.x * boxes.y * boxes.z);
+    }
+    const auto blockOf = [&](const ProbeTask& task) {
+        const kernels::Volume& v = volumes[task.volume];
+        const glm::ivec3 boxes = boxesOf(v), box = kernels::probeCell(v, int(task.slot)) / kBlock;
+        return firstBlock[task.volume] + std::uint32_t(box.x + boxes.x * (box.y + boxes.y * box.z));
+    };
+    // Sorted by counting: the end of each box, then its tasks from the last one down.
+    m_begins.resize(blocks + 1);
+    for (const ProbeTask& task : tasks) ++m_begins[blockOf(task)];
+    std::partial_sum(m_begins.begin(), m_begins.end(), m_begins.begin());
+    for (std::size_t i = tasks.size(); i-- > 0;) m_tasks[--m_begins[blockOf(tasks[i])]] = std::uint32_t(i);
 }
 
 std::vector<OrderedDirection> alongCurve(std::span<const glm::vec3> directions) {

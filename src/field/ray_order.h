@@ -5,28 +5,30 @@
 #include <span>
 #include <vector>
 
-#include "probegi/grid.h"
+#include "probegi/control.h"
 
 namespace probegi {
 
-/// The order in which an update traces its rays. A task has the probes of a small box of the grid and some directions,
+/// The order in which an update traces its rays. A batch has the probes of a small box of a volume and some directions,
 /// and rays of one direction lie side by side in it: they start near each other, meet the same nodes, triangles, texels
 /// and probes, and find them in the caches. Rays of one probe have nothing in common but their origin.
 
-/// Boxes of up to 16 neighbouring probes that cover a grid.
-class ProbeBlocks {
+/// An update's tasks in boxes of up to 16 neighbouring probes.
+class TaskBlocks {
 public:
-    static constexpr int kMostProbes = 16;
+    static constexpr int kMostTasks = 16;
 
-    explicit ProbeBlocks(const GridDesc& grid);
+    TaskBlocks(const FieldDesc& desc, std::span<const ProbeTask> tasks);
 
-    std::size_t count() const noexcept;
-    /// The probes of one box, x fastest; fewer where the grid ends.
-    void probesOf(std::size_t block, std::vector<std::uint32_t>& probes) const;
+    std::size_t count() const noexcept { return m_begins.size() - 1; }
+    /// Numbers of the tasks of one box, in their order; none where no task is in the box.
+    std::span<const std::uint32_t> tasksOf(std::size_t block) const noexcept {
+        return std::span(m_tasks).subspan(m_begins[block], m_begins[block + 1] - m_begins[block]);
+    }
 
 private:
-    glm::ivec3 m_counts;  // of probes
-    glm::ivec3 m_blocks;  // of boxes
+    std::vector<std::uint32_t> m_tasks;   // box by box
+    std::vector<std::uint32_t> m_begins;  // of each box in m_tasks, and the end
 };
 
 /// One direction of a set, and which.

@@ -1,16 +1,18 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <string>
 
 #include "core/sentence.h"
 #include "field/layout.h"
+#include "kernels/abi/field_constants.h"
 #include "kernels/trace/ray_offset.h"
 
 namespace probegi {
 
 namespace {
 
-Result<void> checkRange(const char* name, double value, double lowest, double highest) {
+Result<void> checkRange(const std::string& name, double value, double lowest, double highest) {
     if (value >= lowest && value <= highest) return {};
     return fail(ErrorCode::invalidArgument, sentence(name, " is ", value, "; it must be ", lowest, " to ", highest));
 }
@@ -22,45 +24,67 @@ Result<void> checkMapSize(const char* name, int size, int highest) {
 
 /// Rays leave a surface from a little beside it, as far as coordinates are rounded there; that must be little for the
 /// probes too, or their light is lost.
-Result<void> checkDistance(const GridDesc& grid) {
+Result<void> checkDistance(const std::string& name, const VolumeDesc& volume) {
     constexpr float kMostOfSpacing = 0.25f;
-    const glm::vec3 last = grid.origin + grid.spacing * glm::vec3(grid.counts - 1);
-    const glm::vec3 corner = glm::max(glm::abs(grid.origin), glm::abs(last));
-    const float closest = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+    glm::vec3 corner(0.0f);
+    const int last = probeCount(volume) - 1, x = volume.counts.x - 1, y = volume.counts.x * (volume.counts.y - 1);
+    for (const int probe : {0, x, y, x + y, last, last - x, last - y, last - x - y})
+        corner = glm::max(corner, glm::abs(probePosition(volume, probe)));
+    const float closest = std::min({volume.spacing.x, volume.spacing.y, volume.spacing.z});
     if (kernels::rayOffset(corner, 0.0f) <= kMostOfSpacing * closest) return {};
     return fail(ErrorCode::invalidArgument,
-                sentence("the probe grid reaches ", std::max({corner.x, corner.y, corner.z}),
+                sentence(name, " reaches ", std::max({corner.x, corner.y, corner.z}),
                          " m from the origin, where coordinates are too coarse for probes ", closest,
                          " m apart; move the scene to the origin, or set probes farther apart"));
 }
 
-Result<void> checkGrid(const GridDesc& grid) {
-    std::int64_t probes = 1;
+Result<void> checkOrientation(const std::string& name, const glm::quat& q) {
+    constexpr float kTolerance = 1e-4f;
+    const float square = glm::dot(q, q);
+    if (std::abs(square - 1.0f) <= kTolerance) return {};
+    return fail(ErrorCode::invalidArgument, sentence(name, ".orientation is not a unit quaternion; normalise it"));
+}
+
+Result<void> checkVolume(const std::string& name, const VolumeDesc& volume) {
     for (int axis = 0; axis < 3; ++axis) {
-        if (!std::isfinite(grid.origin[axis])) return fail(ErrorCode::invalidArgument, "grid.origin is not finite");
-        if (auto ok = checkRange("grid.spacing", grid.spacing[axis], kSmallestSpacing, kLargestSpacing); !ok) return ok;
-        if (auto ok = checkRange("grid.counts", grid.counts[axis], 2, 1024); !ok) return ok;
-        probes *= grid.counts[axis];
+        if (!std::isfinite(volume.origin[axis]))
+            return fail(ErrorCode::invalidArgument, sentence(name, ".origin is not finite"));
+        if (auto ok = checkRange(name + ".spacing", volume.spacing[axis], kSmallestSpacing, kLargestSpacing); !ok)
+            return ok;
+        if (auto ok = checkRange(name + ".counts", volume.counts[axis], 2, 1024); !ok) return ok;
     }
-    if (auto ok = checkDistance(grid); !ok) return ok;
-    return checkRange("the number of probes in the grid", double(probes), 8, 1 << 24);
+    return checkOrientation(name, volume.orientation).and_then([&] { return checkDistance(name, volume); });
+}
+
+Result<void> checkVolumes(const std::vector<VolumeDesc>& volumes) {
+    if (auto ok = checkRange("the number of volumes", double(volumes.size()), 1, kernels::kMostVolumes); !ok) return ok;
+    double probes = 0;
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+        if (auto ok = checkVolume(sentence("volumes[", i, "]"), volumes[i]); !ok) return ok;
+        const glm::ivec3& counts = volumes[i].counts;
+        probes += double(counts.x) * counts.y * counts.z;
+    }
+    return checkRange("the number of probes in all volumes", probes, 8, 1 << 24);
 }
 
 }  // namespace
 
 Result<void> validateFieldDesc(const FieldDesc& d) {
-    return checkGrid(d.grid)
+    return checkVolumes(d.volumes)
         .and_then([&] { return checkRange("raysPerProbe", d.raysPerProbe, 8, 4096); })
         .and_then([&] { return checkRange("fixedRays", d.fixedRays, 0, 256); })
         .and_then([&] { return checkMapSize("irradianceTexels", d.irradianceTexels, 32); })
         .and_then([&] { return checkMapSize("visibilityTexels", d.visibilityTexels, 64); })
-        .and_then([&] { return checkRange("hysteresis", d.hysteresis, 0, 0.999f); })
-        .and_then([&] { return checkRange("visibilityHysteresis", d.visibilityHysteresis, 0, 0.999f); })
-        .and_then([&] { return checkRange("visibilityExponent", d.visibilityExponent, 1, 500); })
-        .and_then([&] { return checkRange("selfShadowBias", d.selfShadowBias, 0, 2); })
-        .and_then([&] { return checkRange("significantChange", d.significantChange, 0, 1); })
-        .and_then([&] { return checkRange("newDistribution", d.newDistribution, 0, 1); })
         .and_then([&] { return checkRange("emitterSamples", d.emitterSamples, 0, 16); });
+}
+
+Result<void> validateFieldSettings(const FieldSettings& s) {
+    return checkRange("hysteresis", s.hysteresis, 0, 0.999f)
+        .and_then([&] { return checkRange("visibilityHysteresis", s.visibilityHysteresis, 0, 0.999f); })
+        .and_then([&] { return checkRange("visibilityExponent", s.visibilityExponent, 1, 500); })
+        .and_then([&] { return checkRange("selfShadowBias", s.selfShadowBias, 0, 2); })
+        .and_then([&] { return checkRange("significantChange", s.significantChange, 0, 1); })
+        .and_then([&] { return checkRange("newDistribution", s.newDistribution, 0, 1); });
 }
 
 }  // namespace probegi

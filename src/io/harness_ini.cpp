@@ -121,11 +121,11 @@ void addCamera(const Settings& settings, const std::string& key, Scene& scene) {
     scene.addNode(node);
 }
 
-std::optional<GridDesc> gridOf(const Settings& settings) {
+std::optional<VolumeDesc> gridOf(const Settings& settings) {
     const std::string key = "ddgi.volume.0.";
     if (!contains(settings, key + "probeCounts")) return {};
     constexpr float kMostPerAxis = 1024;  // far below where a float stops being an integer
-    GridDesc grid;
+    VolumeDesc grid;
     const glm::vec3 counts = vector(settings, key + "probeCounts", glm::vec3(2.0f));
     for (int axis = 0; axis < 3; ++axis) {
         if (!(counts[axis] >= 2 && counts[axis] <= kMostPerAxis)) {

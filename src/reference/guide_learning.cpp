@@ -208,7 +208,8 @@ void expectLevels(const GuideLessons& lessons, std::span<const Moments> found, P
 
 Result<PathGuide> learnGuide(const Context& context, const Transport& transport, const Field& field,
                              std::vector<GuideReceiver> first, std::uint64_t seed) {
-    const GridDesc& grid = field.desc().grid;
+    // Its regions are those of the first volume; where it ends, its outermost ones stand for what is beyond.
+    const VolumeDesc& grid = field.desc().volumes.front();
     PathGuide guide(grid);
     const auto lessons = takeLessons(context, transport, field, guide, std::move(first), seed);
     if (!lessons) return lessons.error();

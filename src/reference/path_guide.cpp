@@ -21,7 +21,7 @@ int facingOf(glm::vec3 n) {
 
 }  // namespace
 
-PathGuide::PathGuide(const GridDesc& grid) : m_grid(grid) {
+PathGuide::PathGuide(const VolumeDesc& grid) : m_grid(grid) {
     m_grid.counts = grid.counts * kCellsPerSpacing;
     m_grid.spacing = grid.spacing / float(kCellsPerSpacing);
     m_regions.resize(std::size_t(probeCount(m_grid)) * kFacings);

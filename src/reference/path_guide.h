@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "probegi/grid.h"
+#include "probegi/volume.h"
 
 namespace probegi {
 
@@ -48,7 +48,7 @@ public:
     };
 
     /// For learning: the regions are filled in afterwards.
-    explicit PathGuide(const GridDesc& grid);
+    explicit PathGuide(const VolumeDesc& grid);
 
     /// The region of a point that faces `normal`, 0..regionCount()-1. Points outside the grid belong to its edge.
     std::size_t regionOf(glm::vec3 position, glm::vec3 normal) const noexcept;
@@ -82,7 +82,7 @@ public:
     static void seenShares(const Block& block, glm::vec3 position, glm::vec3 normal, float* out) noexcept;
 
 private:
-    GridDesc m_grid;
+    VolumeDesc m_grid;
     std::vector<Region> m_regions;
     std::vector<Block> m_blocks;
 };

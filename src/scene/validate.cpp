@@ -50,7 +50,7 @@ Result<void> validateSurroundings(const Scene& scene) {
         return malformed("scene: exposure ", scene.exposure, " must be finite and > 0");
     }
     if (!scene.grid) return {};
-    const GridDesc& grid = *scene.grid;
+    const VolumeDesc& grid = *scene.grid;
     if (!finite(grid.origin)) return malformed("probe grid: origin ", text(grid.origin), " must be finite");
     if (!finite(grid.spacing) || grid.spacing.x <= 0 || grid.spacing.y <= 0 || grid.spacing.z <= 0) {
         return malformed("probe grid: spacing ", text(grid.spacing), " must be finite and > 0");

@@ -15,7 +15,7 @@ TEST(FieldConverge, furnacesHaveTheirClosedForm) {
     // A hundred bounces multiply the noise of one by a hundred: at 0.99 seeds differ by 2 %.
     for (const auto& [albedo, bound] :
          {std::pair{0.5f, 0.01}, {0.8f, 0.01}, {0.9f, 0.01}, {0.95f, 0.01}, {0.99f, 0.03}}) {
-        test::FieldScene s("furnace", {.albedo = albedo}, {.counts = {6, 6, 6}}, {.raysPerProbe = 64});
+        test::FieldScene s("furnace", {.albedo = albedo}, {.counts = {6, 6, 6}}, FieldDesc{.raysPerProbe = 64});
         const auto done = s.field.converge(*s.tracer, s.lighting, 0.01f, 128);
         ASSERT_TRUE(done);
         EXPECT_TRUE(done->converged) << albedo;
@@ -50,8 +50,8 @@ TEST(FieldConverge, aDarkRoomBesideABrightOneHasItsClosedForm) {
     const BuiltinParams bright{.albedo = 0.5f, .emission = 10}, dim{.albedo = 0.9f, .emission = 0.01f};
     constexpr float kDistance = 8;
     // Half a metre inside each box at the walls; the probes between the boxes see backs alone.
-    const GridDesc grid{{-1.5f, 0.5f, -1.5f}, glm::vec3(1), {12, 3, 4}};
-    test::FieldScene s(twoFurnaces(bright, dim, kDistance), grid, {.raysPerProbe = 64});
+    const VolumeDesc grid{{-1.5f, 0.5f, -1.5f}, glm::vec3(1), {12, 3, 4}};
+    test::FieldScene s(twoFurnaces(bright, dim, kDistance), grid, FieldDesc{.raysPerProbe = 64});
     const auto done = s.field.converge(*s.tracer, s.lighting, 0.01f, 128);
     ASSERT_TRUE(done);
     EXPECT_TRUE(done->converged);
@@ -68,7 +68,7 @@ TEST(FieldConverge, aDarkRoomBesideABrightOneHasItsClosedForm) {
 
 // A lamp that few rays find is noisy for long: the cap is hit, and said to be.
 TEST(FieldConverge, aCapThatIsHitIsTold) {
-    test::FieldScene s("cornell", {}, {.counts = {6, 6, 6}}, {.raysPerProbe = 16});
+    test::FieldScene s("cornell", {}, {.counts = {6, 6, 6}}, FieldDesc{.raysPerProbe = 16});
     int reported = 0;
     const auto done = s.field.converge(*s.tracer, s.lighting, 1e-3f, 24, [&](const UpdateTimes&) { ++reported; });
     ASSERT_TRUE(done);
@@ -82,8 +82,8 @@ TEST(FieldConverge, aCapThatIsHitIsTold) {
 TEST(FieldConverge, forgetsOlderLight) {
     for (const float before : {1e-3f, 1e3f}) {
         test::FieldScene old("furnace", {.albedo = 0.8f, .emission = before}, {.counts = {4, 4, 4}},
-                             {.raysPerProbe = 64});
-        test::FieldScene s("furnace", {.albedo = 0.8f}, {.counts = {4, 4, 4}}, {.raysPerProbe = 64});
+                             FieldDesc{.raysPerProbe = 64});
+        test::FieldScene s("furnace", {.albedo = 0.8f}, {.counts = {4, 4, 4}}, FieldDesc{.raysPerProbe = 64});
         ASSERT_TRUE(old.field.converge(*old.tracer, old.lighting));
         const auto done = old.field.converge(*s.tracer, s.lighting, 0.01f, 128);
         ASSERT_TRUE(done);

@@ -4,9 +4,12 @@
 #include <glm/geometric.hpp>
 
 #include "analytic/field_scene.h"
+#include "support/field_setup.h"
 
 namespace probegi {
 namespace {
+
+using test::FieldSetup;
 
 constexpr float kPi = 3.14159265f;
 
@@ -21,7 +24,7 @@ TEST_P(FieldFurnace, everyPointHasTheClosedForm) {
     const auto [albedo, emission] = GetParam();
     // What is missing shrinks with (1 - (1 - hysteresis) (1 - albedo))^frames.
     test::FieldScene s("furnace", {.albedo = albedo, .emission = emission}, {.counts = {6, 6, 6}},
-                       {.hysteresis = 0.8f});
+                       FieldSetup({}, {.hysteresis = 0.8f}));
     s.run(int(30 / (1 - albedo)));
     const double expected = kPi * emission / (1 - albedo);
     for (const FieldQuery& q : s.surfaceQueries(400))
@@ -38,12 +41,12 @@ TEST(FieldLevels, brighteningAndDarkeningBothArrive) {
     for (const float hysteresis : {0.97f, 0.99f})
         for (const auto& [from, to] :
              {std::pair{1.0f, 1.1f}, {1.1f, 1.0f}, {1e-3f, 1e3f}, {1e3f, 1e-3f}, {5.0f, 4.9f}}) {
-            FieldDesc desc;
+            FieldSetup desc;
             desc.rules = FieldRules::paper;
-            desc.grid = {{0, 0, 0}, glm::vec3(1), {3, 3, 3}};
+            desc.volumes = {{{0, 0, 0}, glm::vec3(1), {3, 3, 3}}};
             desc.hysteresis = hysteresis;
             desc.significantChange = desc.newDistribution = 0;
-            Field field = *Field::create(*Context::create(), desc);
+            Field field = *Field::create(*Context::create(), desc, desc);
             const auto data = [&](float radiance) {
                 return std::vector<RayDatum>(27 * std::size_t(desc.raysPerProbe), {glm::vec3(radiance), 1.0f});
             };

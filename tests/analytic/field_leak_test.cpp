@@ -4,9 +4,12 @@
 #include <glm/geometric.hpp>
 
 #include "analytic/field_scene.h"
+#include "support/field_setup.h"
 
 namespace probegi {
 namespace {
+
+using test::FieldSetup;
 
 struct RoomLight {
     double dark = 0;  ///< mean E over the surfaces of the sealed room
@@ -42,7 +45,7 @@ std::vector<FieldQuery> innerFaces(float x0, float x1) {
 
 // dark-room with probes a metre apart; `shift` moves the grid, since a leak depends on where probes and walls meet.
 RoomLight measureRooms(LeakGuard guard, float wallThickness, glm::vec3 shift) {
-    FieldDesc desc;
+    FieldSetup desc;
     desc.guard = guard;
     test::FieldScene s(*makeBuiltinScene("dark-room", {.wallThickness = wallThickness}),
                        {glm::vec3(-7, -1.2f, -4) + shift, glm::vec3(1), {15, 6, 9}}, desc);

@@ -21,7 +21,7 @@ double luminance(glm::vec3 e) {
 // Field over reference at up to `limit` probes in the open: luminance of E summed over the six axis directions. Dark
 // probes, where a ratio means nothing, are left out.
 std::vector<double> probeRatios(const test::FieldScene& s, std::size_t limit, int samples) {
-    const GridDesc& grid = s.field.desc().grid;
+    const VolumeDesc& grid = s.field.desc().volumes[0];
     std::vector<int> probes;
     for (int i = 0; i < probeCount(grid); ++i) {
         const glm::vec3 p = probePosition(grid, i);
@@ -70,7 +70,7 @@ TEST(FieldReference, sponzaProbesHoldWhatThePathTracerFinds) {
     auto loaded = loadScene(test::scenesFolder() / "sponza" / "sponza.glb");
     ASSERT_TRUE(loaded) << loaded.error().message;
     loaded->scene.sky.radiance = {0.6f, 0.8f, 1.2f};
-    const GridDesc grid = *placeGrid(poseAt(loaded->scene).bounds, {.targetProbes = 1500});
+    const VolumeDesc grid = *placeVolume(poseAt(loaded->scene).bounds, {.targetProbes = 1500});
     test::FieldScene s(std::move(loaded->scene), grid);
     ASSERT_TRUE(s.field.converge(*s.tracer, s.lighting, 0.01f, 48));
     expectMedianNearOne(s, 320, 300, 0.045);  // measured 0.965, 71 probes: the grid is coarse

@@ -5,38 +5,39 @@
 #include <cmath>
 
 #include "kernels/random.h"
+#include "support/field_setup.h"
 
 namespace probegi::test {
 
 namespace {
 
-GridDesc gridFor(const ScenePose& pose, const PlacementDesc& placement) {
-    return *placeGrid(pose.bounds, placement);
+VolumeDesc gridFor(const ScenePose& pose, const PlacementDesc& placement) {
+    return *placeVolume(pose.bounds, placement);
 }
 
-FieldDesc withGrid(FieldDesc desc, const GridDesc& grid) {
-    desc.grid = grid;
+FieldSetup withGrid(FieldSetup desc, const VolumeDesc& grid) {
+    desc.volumes = {grid};
     return desc;
 }
 
 }  // namespace
 
 FieldScene::FieldScene(std::string_view name, const BuiltinParams& params, const PlacementDesc& placement,
-                       FieldDesc desc)
+                       FieldSetup desc)
     : context(*Context::create()),
       scene(*makeBuiltinScene(name, params)),
       pose(poseAt(scene)),
       tracer(std::move(*makeEmbreeTracer(context, scene, pose))),
       lighting{pose.lights, scene.sky},
-      field(*Field::create(context, withGrid(desc, gridFor(pose, placement)))) {}
+      field(*withGrid(desc, gridFor(pose, placement)).make(context)) {}
 
-FieldScene::FieldScene(Scene ownScene, const GridDesc& grid, FieldDesc desc)
+FieldScene::FieldScene(Scene ownScene, const VolumeDesc& grid, FieldSetup desc)
     : context(*Context::create()),
       scene(std::move(ownScene)),
       pose(poseAt(scene)),
       tracer(std::move(*makeEmbreeTracer(context, scene, pose))),
       lighting{pose.lights, scene.sky},
-      field(*Field::create(context, withGrid(desc, grid))) {}
+      field(*withGrid(desc, grid).make(context)) {}
 
 void FieldScene::run(int frames) {
     for (int i = 0; i < frames; ++i) ASSERT_TRUE(field.update(*tracer, lighting));
@@ -46,7 +47,7 @@ std::vector<FieldQuery> FieldScene::surfaceQueries(int count, float mostBacks) c
     std::vector<FieldQuery> queries;
     std::uint32_t state = 17;
     const auto random = [&] { return kernels::nextRandom(state); };
-    const GridDesc& grid = field.desc().grid;
+    const VolumeDesc& grid = field.desc().volumes[0];
     for (int attempt = 0; attempt < 100 * count && int(queries.size()) < count; ++attempt) {
         const float z = 2 * random() - 1, phi = 6.2831853f * random(), r = std::sqrt(1 - z * z);
         Ray ray;

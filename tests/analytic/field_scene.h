@@ -4,13 +4,15 @@
 
 #include "probegi/builtin_scenes.h"
 #include "probegi/field.h"
+#include "support/field_setup.h"
 
 namespace probegi::test {
 
 /// A built-in scene with a field in it, for tests against closed forms.
 struct FieldScene {
-    FieldScene(std::string_view name, const BuiltinParams& params, const PlacementDesc& placement, FieldDesc desc = {});
-    FieldScene(Scene ownScene, const GridDesc& grid, FieldDesc desc = {});
+    FieldScene(std::string_view name, const BuiltinParams& params, const PlacementDesc& placement,
+               FieldSetup desc = {});
+    FieldScene(Scene ownScene, const VolumeDesc& grid, FieldSetup desc = {});
 
     /// Plain updates, as an engine does them.
     void run(int frames);

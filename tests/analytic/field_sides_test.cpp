@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "analytic/field_scene.h"
+#include "support/field_setup.h"
 
 namespace probegi {
 namespace {
+
+using test::FieldSetup;
 
 Scene withSides(std::string_view name, bool doubleSided) {
     Scene scene = *makeBuiltinScene(name);
@@ -20,8 +23,8 @@ struct SidesDifference {
 };
 
 // The same probes and rays in both.
-SidesDifference measureSides(std::string_view name, const GridDesc& grid, int updates) {
-    FieldDesc desc;
+SidesDifference measureSides(std::string_view name, const VolumeDesc& grid, int updates) {
+    FieldSetup desc;
     desc.raysPerProbe = 64;
     test::FieldScene one(withSides(name, false), grid, desc), two(withSides(name, true), grid, desc);
     one.run(updates);
@@ -52,7 +55,7 @@ TEST(FieldSides, roomsAreTheSameWithDoubleSidedWalls) {
 // Thick walls, ground, furniture and closed leaves that stand in each other.
 TEST(FieldSides, theHouseIsTheSameWithDoubleSidedWalls) {
     const Scene scene = *makeBuiltinScene("house");
-    const GridDesc grid = *placeGrid(poseAt(scene).bounds, {.targetProbes = 1500});
+    const VolumeDesc grid = *placeVolume(poseAt(scene).bounds, {.targetProbes = 1500});
     const SidesDifference d = measureSides("house", grid, 24);
     EXPECT_GT(d.solid, 15);
     EXPECT_LT(d.rms, 0.02);

@@ -4,6 +4,7 @@
 
 #include "backend/every_backend.h"
 #include "field/layout.h"
+#include "support/field_setup.h"
 
 namespace probegi::test {
 namespace {
@@ -15,9 +16,9 @@ constexpr double kPi = 3.14159265358979;
 class BackendBlend : public EveryBackend {};
 PROBEGI_ON_EVERY_BACKEND(BackendBlend);
 
-FieldDesc descWith(BackfaceRule rule) {
-    FieldDesc desc;
-    desc.grid = {{0, 0, 0}, {1, 1.5f, 2}, {3, 3, 2}};
+FieldSetup descWith(BackfaceRule rule) {
+    FieldSetup desc;
+    desc.volumes = {{{0, 0, 0}, {1, 1.5f, 2}, {3, 3, 2}}};
     desc.raysPerProbe = 100;
     desc.backfaceRule = rule;
     return desc;
@@ -30,7 +31,7 @@ glm::dvec3 directMean(const Field& field, std::span<const glm::vec3> rays, std::
     double weights = 0;
     for (std::size_t ray = 0; ray < rays.size(); ++ray) {
         const bool backface = data[ray].distance < 0;
-        if (backface && field.desc().backfaceRule == BackfaceRule::excluded) continue;
+        if (backface && field.control().settings().backfaceRule == BackfaceRule::excluded) continue;
         const double w = std::max(0.0, double(glm::dot(n, rays[ray])));
         if (!backface) sum += w * glm::dvec3(data[ray].radiance);
         weights += w;
@@ -41,12 +42,12 @@ glm::dvec3 directMean(const Field& field, std::span<const glm::vec3> rays, std::
 glm::dvec2 directMoments(const Field& field, std::span<const glm::vec3> rays, std::span<const RayDatum> data,
                          int texel) {
     const glm::vec3 n = texelDirection(texel, field.desc().visibilityTexels);
-    const double farthest = FieldLayout(field.desc()).maxDistance;
+    const double farthest = maxDistance(field.desc().volumes[0]);
     glm::dvec2 sum(0.0);
     double weights = 0;
     for (std::size_t ray = 0; ray < rays.size(); ++ray) {
-        const double w =
-            std::pow(std::max(0.0, double(glm::dot(n, rays[ray]))), double(field.desc().visibilityExponent));
+        const double w = std::pow(std::max(0.0, double(glm::dot(n, rays[ray]))),
+                                  double(field.control().settings().visibilityExponent));
         const double t = data[ray].distance;
         const double d = std::min(t < 0 ? -0.2 * t : t, farthest);
         sum += w * glm::dvec2(d, d * d);
@@ -59,7 +60,8 @@ TEST_P(BackendBlend, equalsTheDirectSum) {
     for (const BackfaceRule rule : {BackfaceRule::zeroSample, BackfaceRule::excluded}) {
         Field field = makeField(descWith(rule));
         const FieldLayout layout(field.desc());
-        const std::vector<glm::vec3> rays(field.rayDirections().begin(), field.rayDirections().end());
+        const std::vector<glm::vec3> rays(field.control().rayDirections().begin(),
+                                          field.control().rayDirections().end());
         const auto data = randomData(field.desc(), 9);
         ASSERT_TRUE(field.update(data));
         for (int probe = 0; probe < int(layout.probes); ++probe) {
@@ -70,7 +72,8 @@ TEST_P(BackendBlend, equalsTheDirectSum) {
                     EXPECT_NEAR(storedIrradiance(field, probe, texel, c) / std::pow(mean[c], 0.2), 1.0,
                                 1.0 / 1024 + 1e-5);
             }
-            const glm::dvec2 step = glm::dvec2(layout.maxDistance, layout.maxDistance * layout.maxDistance) / 65535.0;
+            const float farthest = maxDistance(field.desc().volumes[0]);
+            const glm::dvec2 step = glm::dvec2(farthest, farthest * farthest) / 65535.0;
             for (int texel = 0; texel < 256; ++texel) {
                 const glm::dvec2 truth = directMoments(field, rays, own, texel);
                 const glm::vec2 got = field.probeDistanceMoments(probe, texelDirection(texel, 16));
@@ -84,7 +87,7 @@ TEST_P(BackendBlend, equalsTheDirectSum) {
 TEST_P(BackendBlend, sameRaysInSameAtlasesOut) {
     for (const FieldRules rules : {FieldRules::measured, FieldRules::paper})
         for (const BackfaceRule rule : {BackfaceRule::zeroSample, BackfaceRule::excluded}) {
-            FieldDesc desc = descWith(rule);
+            FieldSetup desc = descWith(rule);
             desc.rules = rules;
             Field field = makeField(desc), reference = made(kCpu.makeField(context, desc));
             for (std::uint32_t frame = 0; frame < 4; ++frame) {
@@ -92,7 +95,7 @@ TEST_P(BackendBlend, sameRaysInSameAtlasesOut) {
                 ASSERT_TRUE(field.update(data));
                 ASSERT_TRUE(reference.update(data));
                 for (std::size_t ray = 0; ray < 100; ++ray)
-                    ASSERT_EQ(field.rayDirections()[ray], reference.rayDirections()[ray]);
+                    ASSERT_EQ(field.control().rayDirections()[ray], reference.control().rayDirections()[ray]);
             }
             expectSameAtlases(field, reference);
         }
@@ -101,7 +104,7 @@ TEST_P(BackendBlend, sameRaysInSameAtlasesOut) {
 // With fixed rays: their light jumps, drifts and stays, so that windows shrink and grow.
 TEST_P(BackendBlend, sameAtlasesWithFixedRays) {
     for (const int fixedRays : {32, 7}) {
-        FieldDesc desc = descWith(BackfaceRule::zeroSample);
+        FieldSetup desc = descWith(BackfaceRule::zeroSample);
         desc.fixedRays = fixedRays;
         Field field = makeField(desc), reference = made(kCpu.makeField(context, desc));
         for (std::uint32_t frame = 0; frame < 8; ++frame) {
@@ -116,7 +119,7 @@ TEST_P(BackendBlend, sameAtlasesWithFixedRays) {
 
 TEST_P(BackendBlend, sameAtlasesForAllMapSizes) {
     for (const int size : {4, 6, 32}) {
-        FieldDesc desc = descWith(BackfaceRule::zeroSample);
+        FieldSetup desc = descWith(BackfaceRule::zeroSample);
         desc.irradianceTexels = size;
         desc.visibilityTexels = 2 * size;
         desc.raysPerProbe = 37;
@@ -131,7 +134,7 @@ TEST_P(BackendBlend, sameAtlasesForAllMapSizes) {
 
 // More rays than a pass keeps at hand at a time, and a number that fills no last piece.
 TEST_P(BackendBlend, sameAtlasesForManyRays) {
-    FieldDesc desc = descWith(BackfaceRule::excluded);
+    FieldSetup desc = descWith(BackfaceRule::excluded);
     desc.raysPerProbe = 701;
     Field field = makeField(desc), reference = made(kCpu.makeField(context, desc));
     ASSERT_TRUE(field.update(randomData(desc, 50)));
@@ -181,7 +184,7 @@ TEST_P(BackendBlend, allRaysOnBackfacesAreDarkUnderBothRules) {
     for (const BackfaceRule rule : {BackfaceRule::zeroSample, BackfaceRule::excluded}) {
         Field field = makeField(descWith(rule));
         ASSERT_TRUE(field.update(constantData(field.desc(), glm::vec3(5.0f), -0.5f)));
-        for (int probe = 0; probe < probeCount(field.desc().grid); ++probe) {
+        for (int probe = 0; probe < probeCount(field.desc()); ++probe) {
             EXPECT_EQ(field.probeIrradiance(probe, {0, 1, 0}), glm::vec3(0.0f));
             EXPECT_EQ(field.probeBackfaceShare(probe), 1.0f);
         }
@@ -193,7 +196,7 @@ TEST_P(BackendBlend, allRaysOnBackfacesAreDarkUnderBothRules) {
 TEST_P(BackendBlend, oneBrightDirectionGivesAClampedCosine) {
     Field field = makeField(descWith(BackfaceRule::zeroSample));
     const std::size_t bright = 42, rays = 100;
-    const glm::vec3 direction = field.rayDirections()[bright];
+    const glm::vec3 direction = field.control().rayDirections()[bright];
     auto data = constantData(field.desc(), glm::vec3(0.0f), 1.0f);
     for (std::size_t i = bright; i < data.size(); i += rays) data[i].radiance = glm::vec3(50.0f);
     ASSERT_TRUE(field.update(data));
@@ -206,7 +209,7 @@ TEST_P(BackendBlend, oneBrightDirectionGivesAClampedCosine) {
 }
 
 TEST_P(BackendBlend, hysteresisKeepsItsShareOfTheOldValue) {
-    FieldDesc desc = descWith(BackfaceRule::zeroSample);
+    FieldSetup desc = descWith(BackfaceRule::zeroSample);
     desc.rules = FieldRules::paper;
     desc.significantChange = desc.newDistribution = 0;
     desc.hysteresis = 0.75f;
@@ -223,7 +226,7 @@ TEST_P(BackendBlend, hysteresisKeepsItsShareOfTheOldValue) {
 // next to nothing; by the paper's rules for as much as a ray that hits the texel.
 TEST_P(BackendBlend, distancesOfRaysThatPassATexelByHardlyCount) {
     for (const FieldRules rules : {FieldRules::measured, FieldRules::paper}) {
-        FieldDesc desc = descWith(BackfaceRule::zeroSample);
+        FieldSetup desc = descWith(BackfaceRule::zeroSample);
         desc.rules = rules;
         desc.raysPerProbe = 16;
         desc.fixedRays = 0;
@@ -231,7 +234,8 @@ TEST_P(BackendBlend, distancesOfRaysThatPassATexelByHardlyCount) {
         desc.visibilityHysteresis = 0.8f;
         Field field = makeField(desc);
         for (int i = 0; i < 40; ++i) ASSERT_TRUE(field.update(constantData(desc, glm::vec3(1.0f), 1.0f)));
-        const std::vector<glm::vec3> rays(field.rayDirections().begin(), field.rayDirections().end());
+        const std::vector<glm::vec3> rays(field.control().rayDirections().begin(),
+                                          field.control().rayDirections().end());
         ASSERT_TRUE(field.update(constantData(desc, glm::vec3(1.0f), 2.0f)));
         int near = 0, far = 0;
         for (int texel = 0; texel < 256; ++texel) {

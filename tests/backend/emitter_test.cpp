@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "backend/every_backend.h"
+#include "support/field_setup.h"
 
 namespace probegi::test {
 namespace {
@@ -58,9 +59,9 @@ struct Ratios {
 
 class BackendEmitters : public EveryBackend {
 protected:
-    static FieldDesc lampDesc(int looks = 4) {
-        FieldDesc desc;
-        desc.grid = {{-1.1f, -0.5f, -0.93f}, {1.0f, 1.0f, 0.9f}, {3, 2, 3}};
+    static FieldSetup lampDesc(int looks = 4) {
+        FieldSetup desc;
+        desc.volumes = {{{-1.1f, -0.5f, -0.93f}, {1.0f, 1.0f, 0.9f}, {3, 2, 3}}};
         desc.raysPerProbe = 64;
         desc.emitterSamples = looks;
         return desc;
@@ -75,10 +76,10 @@ protected:
         const int size = field.desc().irradianceTexels;
         double squares = 0, sum = 0, wanted = 0;
         int count = 0;
-        for (int probe = 0; probe < probeCount(field.desc().grid); ++probe)
+        for (int probe = 0; probe < probeCount(field.desc()); ++probe)
             for (int texel = 0; texel < size * size; ++texel) {
                 const glm::vec3 n = texelDirection(texel, size);
-                const double truth = polygonIrradiance(probePosition(field.desc().grid, probe), n, polygon);
+                const double truth = polygonIrradiance(probePosition(field.desc().volumes[0], probe), n, polygon);
                 if (truth < 0) continue;
                 const glm::vec3 e = field.probeIrradiance(probe, n);
                 const double ratio = double(e.y) / (truth * double(kGlow.y));
@@ -92,7 +93,7 @@ protected:
     }
     static float brightest(const Field& field) {
         float largest = 0;
-        for (int probe = 0; probe < probeCount(field.desc().grid); ++probe)
+        for (int probe = 0; probe < probeCount(field.desc()); ++probe)
             for (int texel = 0; texel < 64; ++texel)
                 largest = std::max(largest, field.probeIrradiance(probe, texelDirection(texel, 8)).x);
         return largest;
@@ -178,8 +179,9 @@ TEST_P(BackendEmitters, furnaceStaysStill) {
     const Scene scene = *makeBuiltinScene("furnace", {.albedo = 0.5f, .emission = 1});
     const ScenePose pose = poseAt(scene);
     const auto tracer = makeTracer(scene, pose);
-    FieldDesc desc{.grid = {{-0.83f, 0.6f, -0.9f}, {0.8f, 0.9f, 0.9f}, {3, 3, 3}}, .raysPerProbe = 32};
-    desc.grid.origin += pose.bounds.centre() - glm::vec3(0, 1.5f, 0);
+    FieldSetup desc =
+        FieldDesc{.volumes = {{{-0.83f, 0.6f, -0.9f}, {0.8f, 0.9f, 0.9f}, {3, 3, 3}}}, .raysPerProbe = 32};
+    desc.volumes[0].origin += pose.bounds.centre() - glm::vec3(0, 1.5f, 0);
     desc.hysteresis = 0;
     Field field = makeField(desc);
     std::vector<double> sum(27), squares(27);
@@ -203,15 +205,16 @@ TEST_P(BackendEmitters, probesHoldWhatTheCpusHold) {
     const Scene scene = *makeBuiltinScene("cornell");
     const ScenePose pose = poseAt(scene);
     const auto own = makeTracer(scene, pose), embree = made(makeEmbreeTracer(context, scene, pose));
-    FieldDesc desc{.grid = offTheWalls(*placeGrid(pose.bounds, {.counts = {5, 5, 5}})), .raysPerProbe = 48};
-    Field onOwn = makeField(desc), onEmbree = makeField(desc), reference = *Field::create(context, desc);
+    const FieldSetup desc =
+        FieldDesc{.volumes = {offTheWalls(*placeVolume(pose.bounds, {.counts = {5, 5, 5}}))}, .raysPerProbe = 48};
+    Field onOwn = makeField(desc), onEmbree = makeField(desc), reference = *Field::create(context, desc, desc);
     for (int frame = 0; frame < 2; ++frame) {
         ASSERT_TRUE(onOwn.update(*own, {pose.lights, scene.sky}));
         ASSERT_TRUE(onEmbree.update(*embree, {pose.lights, scene.sky}));
         ASSERT_TRUE(reference.update(*embree, {pose.lights, scene.sky}));
     }
     double sum = 0, ownDifference = 0, embreeDifference = 0;
-    for (int probe = 0; probe < probeCount(desc.grid); ++probe)
+    for (int probe = 0; probe < probeCount(desc); ++probe)
         for (const glm::vec3 n : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, -1, 0), glm::vec3(0, 0, 1)}) {
             const glm::vec3 wanted = reference.probeIrradiance(probe, n);
             sum += double(wanted.y);
@@ -228,7 +231,7 @@ TEST_P(BackendEmitters, probesHoldWhatTheCpusHold) {
 TEST_P(BackendEmitters, thePaperLooksForNothing) {
     Scene scene;
     addSquare(scene, {0, 2, 0}, 0.2f, lampMaterial());
-    FieldDesc without = lampDesc(0), with = lampDesc(4);
+    FieldSetup without = lampDesc(0), with = lampDesc(4);
     without.rules = with.rules = FieldRules::paper;
     const AtlasDifference difference = compareAtlases(updated(scene, with), updated(scene, without));
     EXPECT_EQ(difference.worstIrradiance, 0.0);

@@ -5,25 +5,25 @@
 #include "field/layout.h"
 #include "kernels/probe/octahedral_texel.h"
 #include "kernels/random.h"
+#include "support/field_setup.h"
 
 namespace probegi::test {
 
-FieldDesc smallDesc() {
-    FieldDesc d;
-    d.grid = {{-1, -1, -1}, {0.5f, 1.0f, 0.7f}, {6, 4, 5}};
+FieldSetup smallDesc() {
+    FieldSetup d;
+    d.volumes[0] = {{-1, -1, -1}, {0.5f, 1.0f, 0.7f}, {6, 4, 5}};
     d.raysPerProbe = 64;
     return d;
 }
 
 std::vector<RayDatum> constantData(const FieldDesc& desc, glm::vec3 radiance, float distance) {
-    return std::vector<RayDatum>(std::size_t(probeCount(desc.grid)) * std::size_t(desc.raysPerProbe),
-                                 {radiance, distance});
+    return std::vector<RayDatum>(std::size_t(probeCount(desc)) * std::size_t(desc.raysPerProbe), {radiance, distance});
 }
 
 std::vector<FixedRayDatum> randomFixedData(const FieldDesc& desc, std::uint32_t seed, float scale) {
     std::vector<FixedRayDatum> data;
     std::uint32_t state = seed;
-    for (int i = 0; i < probeCount(desc.grid) * desc.fixedRays; ++i) {
+    for (int i = 0; i < probeCount(desc) * desc.fixedRays; ++i) {
         const float light = std::exp(4 * kernels::nextRandom(state) - 2);
         data.push_back({scale * light, 0.3f * scale * light, 3.0f * kernels::nextRandom(state)});
     }
@@ -89,7 +89,7 @@ void compareIrradiance(const Field& a, const Field& b, int probe, AtlasDifferenc
 
 void compareVisibility(const Field& a, const Field& b, int probe, AtlasDifference& difference, int& differing) {
     const int size = a.desc().visibilityTexels;
-    const float farthest = FieldLayout(a.desc()).maxDistance;
+    const float farthest = maxDistance(a.desc().volumes[0]);
     const glm::vec2 scale = 65535.0f / glm::vec2(farthest, farthest * farthest);
     for (int texel = 0; texel < size * size; ++texel) {
         const glm::vec3 d = texelDirection(texel, size);
@@ -106,7 +106,7 @@ void compareVisibility(const Field& a, const Field& b, int probe, AtlasDifferenc
 
 AtlasDifference compareAtlases(const Field& a, const Field& b) {
     AtlasDifference difference;
-    const int probes = probeCount(a.desc().grid);
+    const int probes = probeCount(a.desc());
     int irradiance = 0, visibility = 0;
     for (int probe = 0; probe < probes; ++probe) {
         compareIrradiance(a, b, probe, difference, irradiance);

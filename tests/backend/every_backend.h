@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "support/backends.h"
+#include "support/field_setup.h"
 
 namespace probegi::test {
 
@@ -12,7 +13,7 @@ protected:
     void SetUp() override {
         if (!GetParam().possible()) GTEST_SKIP() << "this device has no ray query";
     }
-    Field makeField(const FieldDesc& desc) const { return made(GetParam().makeField(context, desc)); }
+    Field makeField(const FieldSetup& setup) const { return made(GetParam().makeField(context, setup)); }
     std::unique_ptr<Tracer> makeTracer(const Scene& scene, const ScenePose& pose) const {
         return made(GetParam().makeTracer(context, scene, pose));
     }
@@ -37,7 +38,7 @@ protected:
     INSTANTIATE_TEST_SUITE_P(All, Fixture, testing::ValuesIn(backends()), nameOf<Backend>)
 
 /// A grid of 6 x 4 x 5 probes with cells that are no cubes.
-FieldDesc smallDesc();
+FieldSetup smallDesc();
 /// The same datum for all rays of all probes.
 std::vector<RayDatum> constantData(const FieldDesc& desc, glm::vec3 radiance, float distance);
 /// Radiance over two decades, distances up to 3 m, every seventh ray on a backface.
@@ -45,7 +46,7 @@ std::vector<RayDatum> randomData(const FieldDesc& desc, std::uint32_t seed);
 /// Light for fixed rays, `scale` times what it is for the same seed and scale 1.
 std::vector<FixedRayDatum> randomFixedData(const FieldDesc& desc, std::uint32_t seed, float scale);
 /// The grid moved a little: from a probe in the very plane of a wall, rounding decides which of its rays hit the wall.
-inline GridDesc offTheWalls(GridDesc grid) {
+inline VolumeDesc offTheWalls(VolumeDesc grid) {
     grid.origin += grid.spacing * glm::vec3(0.037f, 0.053f, 0.041f);
     return grid;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "probegi/builtin_scenes.h"
+#include "support/field_setup.h"
 
 namespace probegi::test {
 namespace {
@@ -14,9 +15,9 @@ constexpr float kPi = 3.14159265f;
 class BackendMotion : public EveryBackend {};
 PROBEGI_ON_EVERY_BACKEND(BackendMotion);
 
-FieldDesc motionDesc() {
-    FieldDesc desc;
-    desc.grid = {{0, 0, 0}, glm::vec3(1), {3, 3, 3}};
+FieldSetup motionDesc() {
+    FieldSetup desc;
+    desc.volumes = {{{0, 0, 0}, glm::vec3(1), {3, 3, 3}}};
     return desc;
 }
 
@@ -28,10 +29,10 @@ float inTheMiddle(const Field& field) {
 TEST_P(BackendMotion, evenLightIsFollowedInTwoUpdates) {
     for (const bool withFixedRays : {true, false})
         for (const float factor : {0.1f, 0.8f, 1.25f, 10.0f}) {
-            const FieldDesc desc = motionDesc();
+            const FieldSetup desc = motionDesc();
             Field field = makeField(desc);
             const auto update = [&](float light) {
-                const std::size_t fixed = withFixedRays ? std::size_t(probeCount(desc.grid) * desc.fixedRays) : 0;
+                const std::size_t fixed = withFixedRays ? std::size_t(probeCount(desc) * desc.fixedRays) : 0;
                 const std::vector<FixedRayDatum> fixedData(fixed, {light, 0.0f, 1.0f});
                 ASSERT_TRUE(field.update(constantData(desc, glm::vec3(light), 1.0f), fixedData));
             };
@@ -45,7 +46,7 @@ TEST_P(BackendMotion, evenLightIsFollowedInTwoUpdates) {
 // Noise of the rays, with fixed rays that say that nothing happens: the mean is the mean, and the noise is averaged
 // over a hundred updates and more.
 TEST_P(BackendMotion, noiseUnderSteadyLightIsAveraged) {
-    FieldDesc desc = motionDesc();
+    FieldSetup desc = motionDesc();
     desc.raysPerProbe = 16;
     Field field = makeField(desc);
     const std::vector<FixedRayDatum> fixedData(std::size_t(27 * desc.fixedRays), {1.0f, 0.2f, 1.0f});
@@ -72,29 +73,29 @@ TEST_P(BackendMotion, noiseUnderSteadyLightIsAveraged) {
 }
 
 TEST_P(BackendMotion, fixedRaysOfTheWrongNumberAreRefused) {
-    const FieldDesc desc = motionDesc();
+    const FieldSetup desc = motionDesc();
     Field field = makeField(desc);
     const auto result = field.update(constantData(desc, glm::vec3(1), 1), std::vector<FixedRayDatum>(17));
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, ErrorCode::invalidArgument);
     EXPECT_NE(result.error().message.find("fixedRays has 17"), std::string::npos);
-    EXPECT_EQ(field.frame(), 0);
+    EXPECT_EQ(field.control().frame(), 0);
 }
 
 TEST_P(BackendMotion, fixedRaysAreFixedAndThePaperHasNone) {
-    FieldDesc desc = motionDesc();
+    FieldSetup desc = motionDesc();
     Field field = makeField(desc);
-    ASSERT_EQ(field.fixedRayDirections().size(), 16u);
-    const glm::vec3 first = field.fixedRayDirections()[3];
+    ASSERT_EQ(field.control().fixedRayDirections().size(), 16u);
+    const glm::vec3 first = field.control().fixedRayDirections()[3];
     ASSERT_TRUE(field.update(constantData(desc, glm::vec3(1), 1)));
-    EXPECT_EQ(field.fixedRayDirections()[3], first);
+    EXPECT_EQ(field.control().fixedRayDirections()[3], first);
     desc.rules = FieldRules::paper;
-    EXPECT_TRUE(makeField(desc).fixedRayDirections().empty());
+    EXPECT_TRUE(makeField(desc).control().fixedRayDirections().empty());
 }
 
 // What is no light must not reach the averages: it would never leave them.
 TEST_P(BackendMotion, badFixedRaysDoNotPoisonTheFilter) {
-    const FieldDesc desc = motionDesc();
+    const FieldSetup desc = motionDesc();
     Field field = makeField(desc);
     const float nan = std::nanf("");
     std::vector<FixedRayDatum> fixedData(std::size_t(27 * desc.fixedRays), {1.0f, 0.0f, 1.0f});
@@ -109,7 +110,7 @@ TEST_P(BackendMotion, badFixedRaysDoNotPoisonTheFilter) {
 
 // A door that shuts: distances are followed as well.
 TEST_P(BackendMotion, distancesAreFollowed) {
-    const FieldDesc desc = motionDesc();
+    const FieldSetup desc = motionDesc();
     Field field = makeField(desc);
     const auto update = [&](float distance) {
         const std::vector<FixedRayDatum> fixedData(std::size_t(27 * desc.fixedRays), {1.0f, 0.0f, distance});
@@ -122,7 +123,7 @@ TEST_P(BackendMotion, distancesAreFollowed) {
 
 std::vector<int> openProbes(const Field& field) {
     std::vector<int> probes;
-    for (int probe = 0; probe < probeCount(field.desc().grid); ++probe)
+    for (int probe = 0; probe < probeCount(field.desc()); ++probe)
         if (field.probeBackfaceShare(probe) < 0.1f) probes.push_back(probe);
     return probes;
 }
@@ -158,14 +159,14 @@ TEST_P(BackendMotion, aJumpOfTheSunIsFollowedInSixUpdates) {
     const auto scene = makeBuiltinScene("atrium");
     ASSERT_TRUE(scene);
     const ScenePose pose = poseAt(*scene);
-    FieldDesc desc;
-    desc.grid = *placeGrid(pose.bounds, {.targetProbes = 200});
+    FieldSetup desc;
+    desc.volumes = {*placeVolume(pose.bounds, {.targetProbes = 200})};
     const Lighting before{pose.lights, scene->sky};
     Lighting after = before;
     for (PlacedLight& light : after.lights)
         light.direction = glm::normalize(light.direction + glm::vec3(0.35f, 0.0f, -0.35f));
     const auto settled = [&](const Lighting& lighting) {
-        Field field = made(Field::create(context, desc));
+        Field field = made(Field::create(context, desc, desc));
         EXPECT_TRUE(field.converge(*made(makeEmbreeTracer(context, *scene, pose)), lighting, 1e-9f, 100));
         return field;
     };

@@ -6,14 +6,15 @@
 
 #include "backend/every_backend.h"
 #include "field/layout.h"
+#include "support/field_setup.h"
 
 namespace probegi::test {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
 
-FieldDesc paperDesc() {
-    FieldDesc desc = smallDesc();
+FieldSetup paperDesc() {
+    FieldSetup desc = smallDesc();
     desc.rules = FieldRules::paper;
     desc.visibilityExponent = 50;
     return desc;
@@ -36,12 +37,12 @@ double visibility(const Field& field, int index, glm::dvec3 probe, glm::dvec3 po
 
 /// Section 2.2: the eight probes around the point itself, each by trilinear weight, facing and visibility.
 glm::dvec3 paperIrradiance(const Field& field, const FieldQuery& query) {
-    const GridDesc& grid = field.desc().grid;
+    const VolumeDesc& grid = field.desc().volumes[0];
     const glm::dvec3 last = twice(grid.origin) + twice(grid.spacing) * glm::dvec3(grid.counts - 1);
     const glm::dvec3 position = glm::clamp(twice(query.position), twice(grid.origin), last);
     const double minSpacing = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
     const glm::dvec3 biased = position + (0.2 * twice(query.normal) + 0.8 * twice(query.toViewer)) *
-                                             (0.75 * minSpacing * double(field.desc().selfShadowBias));
+                                             (0.75 * minSpacing * double(field.control().settings().selfShadowBias));
     const glm::dvec3 local = (position - twice(grid.origin)) / twice(grid.spacing);
     const glm::dvec3 base = glm::clamp(glm::floor(local), glm::dvec3(0), glm::dvec3(grid.counts - 2));
     glm::dvec3 sum(0);
@@ -60,7 +61,8 @@ glm::dvec3 paperIrradiance(const Field& field, const FieldQuery& query) {
         const double away = glm::length(place - position) + 0.001 * minSpacing;
         const double wrap = (glm::dot(place - position, twice(query.normal)) / away + 1) / 2;
         const double facing = wrap * wrap + 0.2;
-        const double seen = field.desc().guard == LeakGuard::none ? 1 : visibility(field, probe, place, biased);
+        const double seen =
+            field.control().settings().guard == LeakGuard::none ? 1 : visibility(field, probe, place, biased);
         double weight = facing * seen;
         if (weight < 0.2) weight = weight * weight * weight / 0.04;
         weight *= trilinear;
@@ -77,7 +79,7 @@ PROBEGI_ON_EVERY_BACKEND(PaperRules);
 
 TEST_P(PaperRules, answersAreTheFormulas) {
     for (const LeakGuard guard : {LeakGuard::none, LeakGuard::moments}) {
-        FieldDesc desc = paperDesc();
+        FieldSetup desc = paperDesc();
         desc.guard = guard;
         Field field = makeField(desc);
         for (std::uint32_t frame = 0; frame < 2; ++frame) ASSERT_TRUE(field.update(randomData(desc, 70 + frame)));
@@ -99,7 +101,7 @@ TEST_P(PaperRules, answersAreTheFormulas) {
 
 // No rule for probes in walls, no wider search: the weights' floors decide.
 TEST_P(PaperRules, probesInWallsAnswer) {
-    const FieldDesc desc = paperDesc();
+    const FieldSetup desc = paperDesc();
     Field field = makeField(desc);
     std::vector<RayDatum> data = constantData(desc, glm::vec3(1.0f), 1.0f);
     for (std::size_t i = 0; i < data.size(); ++i)
@@ -108,7 +110,7 @@ TEST_P(PaperRules, probesInWallsAnswer) {
     for (const glm::vec3& e : ask(field, randomQueries(200))) EXPECT_GT(e.x, 0.5f);
     EXPECT_EQ(field.fallbackQueries(), 0u);
 
-    FieldDesc measured = desc;
+    FieldSetup measured = desc;
     measured.rules = FieldRules::measured;
     Field other = makeField(measured);
     for (int frame = 0; frame < 3; ++frame) ASSERT_TRUE(other.update(data));

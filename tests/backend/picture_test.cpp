@@ -4,6 +4,7 @@
 
 #include "backend/every_backend.h"
 #include "backend/rich_scene.h"
+#include "support/field_setup.h"
 #include "support/scenes.h"
 
 namespace probegi::test {
@@ -21,9 +22,9 @@ protected:
     Taken take(const Scene& scene, const PlacementDesc& placement, int frames, const PictureDesc& desc) const {
         const ScenePose pose = poseAt(scene);
         const Lighting lighting{pose.lights, scene.sky};
-        FieldDesc fieldDesc;
+        FieldSetup fieldDesc;
         fieldDesc.raysPerProbe = 64;
-        fieldDesc.grid = offTheWalls(*placeGrid(pose.bounds, placement));
+        fieldDesc.volumes = {offTheWalls(*placeVolume(pose.bounds, placement))};
         const auto taken = [&](const Backend& backend) {
             const auto tracer = made(backend.makeTracer(context, scene, pose));
             Field field = made(backend.makeField(context, fieldDesc));

@@ -4,6 +4,7 @@
 
 #include "backend/every_backend.h"
 #include "backend/rich_scene.h"
+#include "support/field_setup.h"
 
 namespace probegi::test {
 namespace {
@@ -13,11 +14,11 @@ constexpr float kPi = 3.14159265f;
 /// A scene with a tracer of one backend and a small field in it.
 struct Lit {
     Lit(const Context& context, const Backend& backend, Scene own,
-        const PlacementDesc& placement = {.counts = {6, 5, 5}}, FieldDesc desc = {.raysPerProbe = 64})
+        const PlacementDesc& placement = {.counts = {6, 5, 5}}, FieldSetup desc = FieldDesc{.raysPerProbe = 64})
         : scene(std::move(own)), pose(poseAt(scene)), lighting{pose.lights, scene.sky} {
         const auto valid = validate(scene);
         EXPECT_TRUE(valid) << valid.error().message;
-        desc.grid = offTheWalls(*placeGrid(pose.bounds, placement));
+        desc.volumes = {offTheWalls(*placeVolume(pose.bounds, placement))};
         auto tried = backend.makeTracer(context, scene, pose);
         if (!tried) throw std::runtime_error(tried.error().message);
         tracer = std::move(*tried);
@@ -38,7 +39,7 @@ struct Lit {
 
 std::vector<float> brightness(const Field& field) {
     std::vector<float> values;
-    for (int probe = 0; probe < probeCount(field.desc().grid); ++probe)
+    for (int probe = 0; probe < probeCount(field.desc()); ++probe)
         for (const glm::vec3 n : {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, -1, 0),
                                   glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)})
             for (int c = 0; c < 3; ++c) values.push_back(field.probeIrradiance(probe, n)[c]);
@@ -48,7 +49,7 @@ std::vector<float> brightness(const Field& field) {
 class BackendPipeline : public EveryBackend {
 protected:
     Lit lit(Scene scene, const PlacementDesc& placement = {.counts = {6, 5, 5}},
-            FieldDesc desc = {.raysPerProbe = 64}) const {
+            FieldSetup desc = FieldDesc{.raysPerProbe = 64}) const {
         return Lit(context, GetParam(), std::move(scene), placement, desc);
     }
     FieldQuery middle(const Lit& s) const { return {s.pose.bounds.centre(), {0, 1, 0}, {0, 1, 0}}; }
@@ -73,11 +74,11 @@ TEST_P(BackendPipeline, probesHoldWhatTheCpusHold) {
             worst = std::max(worst, difference);
             differing += difference > 0.006 * want[i] + 1e-6 ? 1 : 0;  // more than a storage step
         }
-        EXPECT_LT(sum / double(got.size()), 1e-3 * mean) << "after " << own.field->frame() << " updates";
+        EXPECT_LT(sum / double(got.size()), 1e-3 * mean) << "after " << own.field->control().frame() << " updates";
         EXPECT_LT(double(differing), 0.01 * double(got.size()));
         EXPECT_LT(worst, 0.25 * mean);
         RecordProperty("worst", std::to_string(worst / mean));
-        for (int probe = 0; probe < probeCount(own.field->desc().grid); ++probe)
+        for (int probe = 0; probe < probeCount(own.field->desc()); ++probe)
             EXPECT_NEAR(own.field->probeBackfaceShare(probe), reference.field->probeBackfaceShare(probe), 0.04f);
     }
 }
@@ -96,7 +97,7 @@ TEST_P(BackendPipeline, tracesWithTheCpusTracerToo) {
 TEST_P(BackendPipeline, furnaceHasItsClosedFormAtEveryLevel) {
     for (const float emission : {1e-3f, 1.0f, 1e3f}) {
         Lit s = lit(*makeBuiltinScene("furnace", {.albedo = 0.5f, .emission = emission}), {.counts = {4, 4, 4}},
-                    {.raysPerProbe = 32, .hysteresis = 0.7f});
+                    FieldSetup(FieldDesc{.raysPerProbe = 32}, {.hysteresis = 0.7f}));
         s.run(50);
         const double expected = double(kPi) * emission / 0.5;
         std::vector<FieldQuery> queries = randomQueries(200);
@@ -113,9 +114,9 @@ TEST_P(BackendPipeline, furnaceHasItsClosedFormAtEveryLevel) {
 // from below and from above, in steps far below the storage's own.
 TEST_P(BackendPipeline, brighteningAndDarkeningBothArrive) {
     for (const auto& [from, to] : {std::pair{1.0f, 1.1f}, {1.1f, 1.0f}, {1e-3f, 1e3f}, {1e3f, 1e-3f}, {5.0f, 4.9f}}) {
-        FieldDesc desc;
+        FieldSetup desc;
         desc.rules = FieldRules::paper;
-        desc.grid = {{0, 0, 0}, glm::vec3(1), {2, 2, 2}};
+        desc.volumes = {{{0, 0, 0}, glm::vec3(1), {2, 2, 2}}};
         desc.raysPerProbe = 32;
         desc.hysteresis = 0.97f;
         desc.significantChange = desc.newDistribution = 0;
@@ -135,7 +136,7 @@ TEST_P(BackendPipeline, probesInWallsAreFound) {
     Lit s = lit(*makeBuiltinScene("cornell"), {.counts = {6, 6, 6}});
     s.run(1);
     int inside = 0, open = 0;
-    for (int probe = 0; probe < probeCount(s.field->desc().grid); ++probe) {
+    for (int probe = 0; probe < probeCount(s.field->desc()); ++probe) {
         const float share = s.field->probeBackfaceShare(probe);
         ASSERT_TRUE(share >= 0.0f && share <= 1.0f);
         (share > 0.3f ? inside : open) += 1;
@@ -151,12 +152,12 @@ TEST_P(BackendPipeline, everyUpdateIsAFrameWithTimes) {
     for (int frame = 1; frame <= 3; ++frame) {
         const UpdateTimes t = *s.field->update(*s.tracer, s.lighting);
         for (const double time : {t.trace, t.shade, t.blend, t.total}) EXPECT_TRUE(std::isfinite(time) && time >= 0);
-        EXPECT_EQ(s.field->frame(), frame);
+        EXPECT_EQ(s.field->control().frame(), frame);
     }
 }
 
 TEST_P(BackendPipeline, convergeStopsAtItsToleranceAndReportsEachUpdate) {
-    Lit s = lit(*makeBuiltinScene("cornell"), {.counts = {6, 6, 6}}, {.raysPerProbe = 48});
+    Lit s = lit(*makeBuiltinScene("cornell"), {.counts = {6, 6, 6}}, FieldDesc{.raysPerProbe = 48});
     int reported = 0;
     const auto loose = s.field->converge(*s.tracer, s.lighting, 0.5f, 64, [&](const UpdateTimes&) { ++reported; });
     ASSERT_TRUE(loose);
@@ -175,8 +176,8 @@ TEST_P(BackendPipeline, convergeStopsAtItsToleranceAndReportsEachUpdate) {
 
 // The average in linear space, which plain updates do not take, is the CPU's as well.
 TEST_P(BackendPipeline, convergedProbesHoldWhatTheCpusHold) {
-    Lit own = lit(richScene(), {.counts = {4, 4, 4}}, {.raysPerProbe = 32});
-    Lit reference(context, kCpu, richScene(), {.counts = {4, 4, 4}}, {.raysPerProbe = 32});
+    Lit own = lit(richScene(), {.counts = {4, 4, 4}}, FieldDesc{.raysPerProbe = 32});
+    Lit reference(context, kCpu, richScene(), {.counts = {4, 4, 4}}, FieldDesc{.raysPerProbe = 32});
     ASSERT_EQ(own.field->converge(*own.tracer, own.lighting, 1e-6f, 12)->updates, 12);
     ASSERT_EQ(reference.field->converge(*reference.tracer, reference.lighting, 1e-6f, 12)->updates, 12);
     const auto got = brightness(*own.field), want = brightness(*reference.field);
@@ -188,7 +189,7 @@ TEST_P(BackendPipeline, convergedProbesHoldWhatTheCpusHold) {
 
 // Many bounces: an update that steps ahead of its light, on every backend.
 TEST_P(BackendPipeline, convergeFollowsManyBounces) {
-    Lit s = lit(*makeBuiltinScene("furnace", {.albedo = 0.9f}), {.counts = {4, 4, 4}}, {.raysPerProbe = 32});
+    Lit s = lit(*makeBuiltinScene("furnace", {.albedo = 0.9f}), {.counts = {4, 4, 4}}, FieldDesc{.raysPerProbe = 32});
     const auto done = s.field->converge(*s.tracer, s.lighting, 0.01f, 128);
     ASSERT_TRUE(done);
     EXPECT_TRUE(done->converged);
@@ -200,7 +201,7 @@ TEST_P(BackendPipeline, convergeFollowsManyBounces) {
 
 TEST_P(BackendPipeline, convergeCanBeCancelled) {
     const Context stopping = *Context::create({.progress = [](const ProgressReport&) { return false; }});
-    Lit s(stopping, GetParam(), *makeBuiltinScene("cornell"), {.counts = {3, 3, 3}}, {.raysPerProbe = 8});
+    Lit s(stopping, GetParam(), *makeBuiltinScene("cornell"), {.counts = {3, 3, 3}}, FieldDesc{.raysPerProbe = 8});
     const auto result = s.field->converge(*s.tracer, s.lighting, 1e-9f, 100000);
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, ErrorCode::cancelled);
@@ -208,15 +209,15 @@ TEST_P(BackendPipeline, convergeCanBeCancelled) {
 
 // A sudden change is followed faster when the field is told: irradiance and, for objects, distances.
 TEST_P(BackendPipeline, eventsSpeedUpTheChange) {
-    FieldDesc desc;
+    FieldSetup desc;
     desc.rules = FieldRules::paper;  // the others see the change by themselves
-    desc.grid = {{0, 0, 0}, glm::vec3(1), {3, 3, 3}};
+    desc.volumes = {{{0, 0, 0}, glm::vec3(1), {3, 3, 3}}};
     desc.raysPerProbe = 32;
     desc.significantChange = desc.newDistribution = 0;
     const auto afterChange = [&](std::optional<FieldEvent> event) {
         Field field = makeField(desc);
         EXPECT_TRUE(field.update(constantData(desc, glm::vec3(1.0f), 1.0f)));
-        if (event) field.notify(*event);
+        if (event) field.control().notify(*event);
         const auto dim = constantData(desc, glm::vec3(0.5f), 0.5f);
         for (int frame = 0; frame < 5; ++frame) EXPECT_TRUE(field.update(dim));
         return std::pair(field.irradiance({glm::vec3(1.2f), {0, 1, 0}, {0, 1, 0}}).x,
@@ -234,16 +235,16 @@ TEST_P(BackendPipeline, eventsSpeedUpTheChange) {
 }
 
 TEST_P(BackendPipeline, memoryIsWithinItsBudget) {
-    FieldDesc desc;
-    desc.grid.counts = {22, 14, 32};
+    FieldSetup desc;
+    desc.volumes[0].counts = {22, 14, 32};
     const Field field = makeField(desc);
     // Borders included, and four channels where a format has no three.
-    EXPECT_LE(double(field.memory().persistentBytes()) / probeCount(desc.grid), 2400.0);
-    EXPECT_GE(double(field.memory().persistentBytes()) / probeCount(desc.grid), 64 * 6 + 256 * 4);
+    EXPECT_LE(double(field.memory().persistentBytes()) / probeCount(desc), 2400.0);
+    EXPECT_GE(double(field.memory().persistentBytes()) / probeCount(desc), 64 * 6 + 256 * 4);
 }
 
 TEST_P(BackendPipeline, fieldsComeAndGo) {
-    const FieldDesc desc = smallDesc();
+    const FieldSetup desc = smallDesc();
     const auto data = constantData(desc, glm::vec3(1.0f), 1.0f);
     for (int i = 0; i < 30; ++i) {
         Field field = makeField(desc);
@@ -260,11 +261,11 @@ TEST_P(BackendPipeline, wrongAmountOfRayDataIsRefused) {
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, ErrorCode::invalidArgument);
     EXPECT_NE(result.error().message.find("17"), std::string::npos);
-    EXPECT_EQ(field.frame(), 0);
+    EXPECT_EQ(field.control().frame(), 0);
 }
 
 TEST_P(BackendPipeline, descsOutOfRangeAreRefused) {
-    FieldDesc desc = smallDesc();
+    FieldSetup desc = smallDesc();
     desc.irradianceTexels = 7;
     const auto refused = GetParam().makeField(context, desc);
     ASSERT_FALSE(refused);
@@ -272,13 +273,13 @@ TEST_P(BackendPipeline, descsOutOfRangeAreRefused) {
 }
 
 TEST_P(BackendPipeline, raysTurnEveryFrameAndRepeatWithTheSeed) {
-    const FieldDesc desc = smallDesc();
+    const FieldSetup desc = smallDesc();
     Field a = makeField(desc), b = makeField(desc);
-    const std::vector<glm::vec3> first(a.rayDirections().begin(), a.rayDirections().end());
+    const std::vector<glm::vec3> first(a.control().rayDirections().begin(), a.control().rayDirections().end());
     ASSERT_TRUE(a.update(constantData(desc, glm::vec3(1), 1)));
-    EXPECT_NE(first[0], a.rayDirections()[0]);
-    EXPECT_EQ(first[0], b.rayDirections()[0]);
-    for (const glm::vec3& d : a.rayDirections()) EXPECT_NEAR(glm::length(d), 1.0f, 1e-5f);
+    EXPECT_NE(first[0], a.control().rayDirections()[0]);
+    EXPECT_EQ(first[0], b.control().rayDirections()[0]);
+    for (const glm::vec3& d : a.control().rayDirections()) EXPECT_NEAR(glm::length(d), 1.0f, 1e-5f);
 }
 
 }  // namespace

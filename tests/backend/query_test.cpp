@@ -4,6 +4,7 @@
 #include "backend/every_backend.h"
 #include "field/layout.h"
 #include "kernels/random.h"
+#include "support/field_setup.h"
 
 namespace probegi::test {
 namespace {
@@ -19,7 +20,7 @@ protected:
             auto data = randomData(desc, 50 + frame);
             // Half of the probes stand in walls, in slabs that are wider than a cage.
             for (std::size_t i = 0; walls && i < data.size(); ++i)
-                if (int(i / std::size_t(desc.raysPerProbe)) % desc.grid.counts.x % 4 < 2)
+                if (int(i / std::size_t(desc.raysPerProbe)) % desc.volumes[0].counts.x % 4 < 2)
                     data[i].distance = -std::abs(data[i].distance);
             EXPECT_TRUE(pair.first.update(data));
             EXPECT_TRUE(pair.second.update(data));
@@ -49,7 +50,7 @@ PROBEGI_ON_EVERY_BACKEND(BackendQuery);
 // Quality.md: a constant field is returned exactly, inside, on faces and outside, whatever the guard.
 TEST_P(BackendQuery, constantFieldIsConstantEverywhere) {
     for (const LeakGuard guard : {LeakGuard::none, LeakGuard::moments}) {
-        FieldDesc desc = smallDesc();
+        FieldSetup desc = smallDesc();
         desc.guard = guard;
         Field field = makeField(desc);
         ASSERT_TRUE(field.update(constantData(desc, {1, 32, 0}, 0.4f)));  // fifth roots exact in half floats
@@ -63,7 +64,7 @@ TEST_P(BackendQuery, constantFieldIsConstantEverywhere) {
 
 TEST_P(BackendQuery, answersAreTheCpus) {
     for (const LeakGuard guard : {LeakGuard::none, LeakGuard::moments}) {
-        FieldDesc desc = smallDesc();
+        FieldSetup desc = smallDesc();
         desc.guard = guard;
         expectSameAnswers(randomPair(desc), randomQueries(5000));
     }
@@ -72,8 +73,8 @@ TEST_P(BackendQuery, answersAreTheCpus) {
 // A point between probes that stand in walls, or far from all that see it: the wider search answers.
 TEST_P(BackendQuery, fallbackAnswersAreTheCpus) {
     for (const LeakGuard guard : {LeakGuard::none, LeakGuard::moments}) {
-        FieldDesc desc = smallDesc();
-        desc.grid.counts = {12, 4, 4};
+        FieldSetup desc = smallDesc();
+        desc.volumes[0].counts = {12, 4, 4};
         desc.guard = guard;
         const auto pair = randomPair(desc, true);
         std::vector<FieldQuery> queries = randomQueries(3000);
@@ -84,7 +85,7 @@ TEST_P(BackendQuery, fallbackAnswersAreTheCpus) {
 }
 
 TEST_P(BackendQuery, whereAllProbesStandInWallsItIsDark) {
-    const FieldDesc desc = smallDesc();
+    const FieldSetup desc = smallDesc();
     Field field = makeField(desc);
     ASSERT_TRUE(field.update(constantData(desc, glm::vec3(7.0f), -0.1f)));
     for (const glm::vec3& e : ask(field, randomQueries(100))) EXPECT_EQ(e, glm::vec3(0.0f));
@@ -94,7 +95,7 @@ TEST_P(BackendQuery, whereAllProbesStandInWallsItIsDark) {
 // Directions on the octahedral map's seams and corners, and a hair beside them: where a border is read.
 TEST_P(BackendQuery, seamsOfTheMapsAreTheCpus) {
     for (const int size : {4, 8}) {
-        FieldDesc desc = smallDesc();
+        FieldSetup desc = smallDesc();
         desc.irradianceTexels = size;
         desc.visibilityTexels = 2 * size;
         const auto pair = randomPair(desc);
@@ -149,19 +150,19 @@ TEST_P(BackendQuery, anyNumberOfQueries) {
 
 // One wall of probes that sees a near surface towards +X: what lies beyond is shadowed, what lies before is not.
 TEST_P(BackendQuery, momentsGuardIgnoresProbesBehindAWall) {
-    FieldDesc desc;
-    desc.grid = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
+    FieldSetup desc;
+    desc.volumes = {{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}};
     desc.raysPerProbe = 512;
     const auto irradianceIn = [&](LeakGuard guard) {
-        FieldDesc d = desc;
+        FieldSetup d = desc;
         d.guard = guard;
         Field field = makeField(d);
         for (int frame = 0; frame < 30; ++frame) {
             std::vector<RayDatum> data;
-            for (int probe = 0; probe < probeCount(d.grid); ++probe)
-                for (const glm::vec3& w : field.rayDirections()) {
+            for (int probe = 0; probe < probeCount(d.volumes[0]); ++probe)
+                for (const glm::vec3& w : field.control().rayDirections()) {
                     // A thin wall at x = 0.5; bright for the probes beyond it, black for those before it.
-                    const float x = 0.5f - probePosition(d.grid, probe).x;
+                    const float x = 0.5f - probePosition(d.volumes[0], probe).x;
                     const float t = x * w.x > 0 ? x / w.x : 1e30f;
                     data.push_back({glm::vec3(x < 0 ? 1.0f : 0.0f), t});
                 }
@@ -177,12 +178,12 @@ TEST_P(BackendQuery, momentsGuardIgnoresProbesBehindAWall) {
 // The wider search too: where the cage stands in a wall, the guard alone decides whether distances count.
 TEST_P(BackendQuery, onlyTheMomentsGuardLooksAtDistances) {
     const auto irradianceIn = [this](LeakGuard guard, float distanceOfBrightProbes) {
-        FieldDesc desc;
-        desc.grid = {{0, 0, 0}, {1, 1, 1}, {6, 4, 4}};
+        FieldSetup desc;
+        desc.volumes = {{{0, 0, 0}, {1, 1, 1}, {6, 4, 4}}};
         desc.guard = guard;
         Field field = makeField(desc);
         std::vector<RayDatum> data;
-        for (int probe = 0; probe < probeCount(desc.grid); ++probe) {
+        for (int probe = 0; probe < probeCount(desc); ++probe) {
             const int x = probe % 6;
             RayDatum datum{glm::vec3(0.0f), 5.0f};
             if (x < 2) datum = {glm::vec3(1.0f), distanceOfBrightProbes};
@@ -202,7 +203,7 @@ TEST_P(BackendQuery, onlyTheMomentsGuardLooksAtDistances) {
 // Zero stands for the normal: on a wall as on a floor, nobody has to name a viewer.
 TEST_P(BackendQuery, aViewerOfZeroIsTheNormal) {
     for (const FieldRules rules : {FieldRules::measured, FieldRules::paper}) {
-        FieldDesc desc = smallDesc();
+        FieldSetup desc = smallDesc();
         desc.rules = rules;
         const auto pair = randomPair(desc);
         std::vector<FieldQuery> named = randomQueries(500), unnamed;
@@ -233,9 +234,9 @@ TEST_P(BackendQuery, theGuardMayChangeBetweenQueries) {
     ASSERT_TRUE(field.update(randomData(field.desc(), 6)));
     const auto queries = randomQueries(200);
     const auto guarded = ask(field, queries);
-    field.setGuard(LeakGuard::none);
+    changeSettings(field, [&](FieldSettings& s) { s.guard = LeakGuard::none; });
     EXPECT_NE(ask(field, queries), guarded);
-    field.setGuard(LeakGuard::moments);
+    changeSettings(field, [&](FieldSettings& s) { s.guard = LeakGuard::moments; });
     EXPECT_EQ(ask(field, queries), guarded);
 }
 

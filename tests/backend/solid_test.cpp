@@ -4,6 +4,7 @@
 
 #include "backend/every_backend.h"
 #include "kernels/random.h"
+#include "support/field_setup.h"
 
 namespace probegi::test {
 namespace {
@@ -80,16 +81,16 @@ Scene curtain(bool doubleSided) {
 struct SolidWorld {
     SolidWorld(const Context& context, const Backend& backend, Scene own, int updates)
         : scene(std::move(own)), pose(poseAt(scene)), lighting{pose.lights, scene.sky} {
-        FieldDesc desc;
+        FieldSetup desc;
         desc.raysPerProbe = 96;
-        desc.grid = {kLower - 0.5f, glm::vec3(1.0f), {8, 5, 8}};
+        desc.volumes = {{kLower - 0.5f, glm::vec3(1.0f), {8, 5, 8}}};
         tracer = std::move(backend.makeTracer(context, scene, pose).value());
         field.emplace(std::move(backend.makeField(context, desc).value()));
         for (int i = 0; i < updates; ++i) EXPECT_TRUE(field->update(*tracer, lighting));
     }
     float share(int probe) const { return field->probeBackfaceShare(probe); }
     float shareAt(glm::vec3 position) const {
-        const glm::ivec3 at(glm::round(position - field->desc().grid.origin));
+        const glm::ivec3 at(glm::round(position - field->desc().volumes[0].origin));
         return share(at.x + 8 * (at.y + 5 * at.z));
     }
 
@@ -146,7 +147,7 @@ TEST_P(BackendSolid, probesInMatterAreFoundWhateverTheMaterial) {
         const SolidWorld s = world(pillars(doubleSided), 20);
         int solid = 0;
         for (int probe = 0; probe < 8 * 5 * 8; ++probe) {
-            const glm::vec3 p = probePosition(s.field->desc().grid, probe);
+            const glm::vec3 p = probePosition(s.field->desc().volumes[0], probe);
             const bool expected = outsideTheRoom(p) || inAPillar(p);
             solid += expected ? 1 : 0;
             if (expected)
@@ -203,7 +204,7 @@ TEST_P(BackendSolid, agreesWithTheCpuOnWhoIsSolid) {
 
 // Ray data of the caller's own. Both of a datum's signs are negative on the back of a surface with two sides.
 TEST_P(BackendSolid, aDoorThatMovesOverAProbeIsFollowed) {
-    const FieldDesc desc = smallDesc();
+    const FieldSetup desc = smallDesc();
     Field field = makeField(desc);
     const int probe = 2 + 6 * (1 + 4 * 2);
     const auto update = [&](bool inside) {
@@ -231,7 +232,7 @@ TEST_P(BackendSolid, aDoorThatMovesOverAProbeIsFollowed) {
 
 TEST_P(BackendSolid, lightFromTheBackOfTwoSidesCounts) {
     for (const BackfaceRule rule : {BackfaceRule::zeroSample, BackfaceRule::excluded}) {
-        FieldDesc desc = smallDesc();
+        FieldSetup desc = smallDesc();
         desc.backfaceRule = rule;
         Field lit = makeField(desc), black = makeField(desc);
         ASSERT_TRUE(lit.update(constantData(desc, glm::vec3(-2.0f), -0.5f)));

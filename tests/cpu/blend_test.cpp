@@ -6,20 +6,24 @@
 #include <limits>
 
 #include "cpu/probe_query.h"
+#include "field/control_impl.h"
 #include "kernels/blend/probe_blend.h"
 #include "kernels/probe/octahedral_texel.h"
 #include "kernels/probe/storage.h"
 #include "kernels/trace/ray_set.h"
+#include "support/field_setup.h"
 
 namespace probegi {
 namespace {
+
+using test::FieldSetup;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 struct BlendInput {
     explicit BlendInput(BackfaceRule rule = BackfaceRule::zeroSample) : desc(), layout(desc), storage(layout) {
-        desc.grid = {{0, 0, 0}, {1, 1.5f, 2}, {5, 3, 4}};
+        desc.volumes = {{{0, 0, 0}, {1, 1.5f, 2}, {5, 3, 4}}};
         desc.raysPerProbe = 100;
         desc.backfaceRule = rule;
         layout = FieldLayout(desc);
@@ -35,18 +39,20 @@ struct BlendInput {
         }
     }
 
-    void blend(int threads = 2, BlendFrame frame = {{0, 0}, false, 5}) {
+    void blend(int threads = 2, BlendFrame frame = {{}, {0, 0}, false, 5}) {
+        const FieldControl control = makeFieldControl(desc, desc);
+        frame.tasks = control.tasks();
         const Context context = *Context::create({.threads = threads});
         BlendWeights weights;
-        makeBlendWeights(context, desc, directions, weights);
-        blendProbes(context, desc, layout, weights, data, frame, storage);
+        makeBlendWeights(context, desc, desc.visibilityExponent, directions, weights);
+        blendProbes(context, desc, desc, weights, data, frame, storage);
     }
 
     float stored(std::size_t probe, std::size_t texel, int channel) const {
         return kernels::unpackHalf(storage.irradiance[3 * (probe * layout.irradianceTexels + texel) + channel]);
     }
 
-    FieldDesc desc;
+    FieldSetup desc;
     FieldLayout layout;
     FieldStorage storage;
     std::vector<glm::vec3> directions;
@@ -76,7 +82,8 @@ glm::dvec2 directMoments(const BlendInput& s, std::size_t probe, int texel) {
     for (std::size_t ray = 0; ray < s.layout.rays; ++ray) {
         const double w = std::pow(std::max(0.0, double(glm::dot(n, s.directions[ray]))), s.desc.visibilityExponent);
         const float t = s.data[probe * s.layout.rays + ray].distance;
-        const double d = std::min(t < 0 ? -0.2 * t : double(t), double(s.layout.maxDistance)) / s.layout.maxDistance;
+        const double d = std::min(t < 0 ? -0.2 * t : double(t), double(maxDistance(s.desc.volumes[0]))) /
+                         maxDistance(s.desc.volumes[0]);
         sum += w * glm::dvec2(d, d * d);
         weights += w;
     }
@@ -112,7 +119,7 @@ TEST(BlendWeights, AreNormalNumbersOrZero) {
     BlendInput s;
     s.desc.visibilityExponent = 100;
     BlendWeights weights;
-    makeBlendWeights(*Context::create({.threads = 1}), s.desc, s.directions, weights);
+    makeBlendWeights(*Context::create({.threads = 1}), s.desc, s.desc.visibilityExponent, s.directions, weights);
     std::size_t zeros = 0;
     for (const std::vector<float>* all : {&weights.irradiance, &weights.visibility})
         for (const float w : *all) {

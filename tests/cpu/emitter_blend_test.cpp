@@ -5,18 +5,22 @@
 #include <glm/geometric.hpp>
 
 #include "cpu/probe_blend.h"
+#include "field/control_impl.h"
 #include "kernels/probe/octahedral_texel.h"
 #include "kernels/probe/storage.h"
 #include "kernels/random.h"
 #include "kernels/trace/ray_set.h"
+#include "support/field_setup.h"
 
 namespace probegi {
 namespace {
 
+using test::FieldSetup;
+
 // Rays bring nothing, looks bring all: each texel is the sum of its looks, times the clamped cosine.
 TEST(EmitterBlend, isTheSumOverLooks) {
-    FieldDesc desc;
-    desc.grid.counts = {3, 3, 5};
+    FieldSetup desc;
+    desc.volumes[0].counts = {3, 3, 5};
     desc.raysPerProbe = 16;
     const FieldLayout layout(desc);
     FieldStorage storage(layout);
@@ -32,9 +36,10 @@ TEST(EmitterBlend, isTheSumOverLooks) {
     }
     BlendWeights weights;
     const Context context = *Context::create({.threads = 2});
-    makeBlendWeights(context, desc, directions, weights);
+    makeBlendWeights(context, desc, desc.visibilityExponent, directions, weights);
+    const FieldControl control = makeFieldControl(desc, desc);
     const std::vector<RayDatum> data(layout.probes * layout.rays, RayDatum{glm::vec3(0.0f), 1.0f});
-    blendProbes(context, desc, layout, weights, data, {{0, 0}, false, 3}, storage, looks);
+    blendProbes(context, desc, desc, weights, data, {control.tasks(), {0, 0}, false, 3}, storage, looks);
     for (std::size_t probe = 0; probe < layout.probes; ++probe)
         for (int texel = 0; texel < 64; ++texel) {
             const glm::vec3 n = kernels::octTexelDirection(texel % 8, texel / 8, 8);

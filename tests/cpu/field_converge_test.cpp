@@ -7,6 +7,7 @@
 
 #include "probegi/field.h"
 #include "support/analytic_tracer.h"
+#include "support/field_setup.h"
 
 namespace probegi::test {
 namespace {
@@ -22,16 +23,16 @@ struct Furnace : AnalyticTracer {
     }
 };
 
-FieldDesc smallDesc() {
-    FieldDesc desc;
-    desc.grid = {glm::vec3(-0.5f), glm::vec3(1.0f), {2, 2, 2}};
+FieldSetup smallDesc() {
+    FieldSetup desc;
+    desc.volumes = {{glm::vec3(-0.5f), glm::vec3(1.0f), {2, 2, 2}}};
     desc.raysPerProbe = 64;
     return desc;
 }
 
 TEST(FieldConverge, arrivesAtTheFurnacesLight) {
     const Furnace furnace;
-    Field field = *Field::create(*Context::create({.threads = 2}), smallDesc());
+    Field field = *Field::create(*Context::create({.threads = 2}), smallDesc(), smallDesc());
     int told = 0;
     double total = 0;
     const auto done = field.converge(furnace, {}, 0.01f, 64, [&](const UpdateTimes& t) { ++told, total += t.total; });
@@ -40,14 +41,14 @@ TEST(FieldConverge, arrivesAtTheFurnacesLight) {
     EXPECT_LT(done->remaining, 0.01f);
     EXPECT_LE(done->updates, 32);
     EXPECT_EQ(told, done->updates);
-    EXPECT_EQ(field.frame(), done->updates);
+    EXPECT_EQ(field.control().frame(), done->updates);
     EXPECT_GT(total, 0);
     const glm::vec3 e = field.irradiance({glm::vec3(0.1f), {0, 1, 0}});
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(e[c] / 3.14159265f, 2, 0.02);
 }
 
 TEST(FieldConverge, saysWhereTheCapWasHit) {
-    Field field = *Field::create(*Context::create({.threads = 1}), smallDesc());
+    Field field = *Field::create(*Context::create({.threads = 1}), smallDesc(), smallDesc());
     const auto done = field.converge(Furnace(), {}, 0.01f, 1);
     ASSERT_TRUE(done);
     EXPECT_EQ(done->updates, 1);
@@ -56,7 +57,7 @@ TEST(FieldConverge, saysWhereTheCapWasHit) {
 }
 
 TEST(FieldConverge, refusesWhatCannotEnd) {
-    Field field = *Field::create(*Context::create({.threads = 1}), smallDesc());
+    Field field = *Field::create(*Context::create({.threads = 1}), smallDesc(), smallDesc());
     for (const float tolerance : {0.0f, -1.0f, std::nanf("")}) {
         const auto done = field.converge(Furnace(), {}, tolerance, 8);
         ASSERT_FALSE(done);
@@ -65,12 +66,12 @@ TEST(FieldConverge, refusesWhatCannotEnd) {
     const auto none = field.converge(Furnace(), {}, 0.01f, 0);
     ASSERT_FALSE(none);
     EXPECT_NE(none.error().message.find("maxFrames"), std::string::npos);
-    EXPECT_EQ(field.frame(), 0);
+    EXPECT_EQ(field.control().frame(), 0);
 }
 
 TEST(FieldConverge, endsWhenItIsCancelled) {
     const Context context = *Context::create({.threads = 1, .progress = [](const ProgressReport&) { return false; }});
-    Field field = *Field::create(context, smallDesc());
+    Field field = *Field::create(context, smallDesc(), smallDesc());
     // Progress is told ten times a second at most.
     const auto pause = [](const UpdateTimes&) { std::this_thread::sleep_for(std::chrono::milliseconds(150)); };
     const auto done = field.converge(Furnace(), {}, 1e-6f, 50, pause);
@@ -79,8 +80,8 @@ TEST(FieldConverge, endsWhenItIsCancelled) {
 }
 
 TEST(FieldUpdate, wantsARayDatumForEachRay) {
-    const FieldDesc desc = smallDesc();
-    Field field = *Field::create(*Context::create({.threads = 1}), desc);
+    const FieldSetup desc = smallDesc();
+    Field field = *Field::create(*Context::create({.threads = 1}), desc, desc);
     std::vector<RayDatum> rays(8 * 64, {glm::vec3(1.0f), 1});
     std::vector<FixedRayDatum> fixed(std::size_t(8 * desc.fixedRays), {1, 0, 1});
     for (const std::size_t wrong : {std::size_t(0), rays.size() - 1}) {
@@ -91,10 +92,10 @@ TEST(FieldUpdate, wantsARayDatumForEachRay) {
     const auto done = field.update(rays, std::span(fixed).first(31));
     ASSERT_FALSE(done);
     EXPECT_NE(done.error().message.find("fixedRays"), std::string::npos);
-    EXPECT_EQ(field.frame(), 0);
+    EXPECT_EQ(field.control().frame(), 0);
     EXPECT_TRUE(field.update(rays, fixed));
     EXPECT_TRUE(field.update(rays));
-    EXPECT_EQ(field.frame(), 2);
+    EXPECT_EQ(field.control().frame(), 2);
     std::vector<FieldQuery> queries(3);
     std::vector<glm::vec3> answers(2);
     EXPECT_FALSE(field.irradiance(queries, answers));
@@ -114,25 +115,25 @@ struct BrokenTracer : Furnace {
 
 // An update that fails is no frame: the next one has its rays.
 TEST(FieldUpdate, thatFailsIsNoFrame) {
-    Field field = *Field::create(*Context::create({.threads = 1}), smallDesc());
-    const glm::vec3 ray = field.rayDirections()[0];
+    Field field = *Field::create(*Context::create({.threads = 1}), smallDesc(), smallDesc());
+    const glm::vec3 ray = field.control().rayDirections()[0];
     BrokenTracer broken;
     EXPECT_EQ(field.update(broken, {}).error().message, "no hits today");
     broken.hits = false;
     EXPECT_EQ(field.update(broken, {}).error().message, "no surfaces today");
     EXPECT_EQ(field.converge(broken, {}, 0.1f, 3).error().message, "no surfaces today");
-    EXPECT_EQ(field.frame(), 0);
-    EXPECT_EQ(field.rayDirections()[0], ray);
+    EXPECT_EQ(field.control().frame(), 0);
+    EXPECT_EQ(field.control().rayDirections()[0], ray);
     ASSERT_TRUE(field.update(Furnace(), {}));
-    EXPECT_NE(field.rayDirections()[0], ray);
+    EXPECT_NE(field.control().rayDirections()[0], ray);
 }
 
 // One bounce an update: 1, 1.5, 1.75 ... of the way to 2.
 TEST(FieldUpdate, addsABounceAFrame) {
-    FieldDesc desc = smallDesc();
+    FieldSetup desc = smallDesc();
     desc.hysteresis = desc.visibilityHysteresis = 0;
     desc.rules = FieldRules::paper;
-    Field field = *Field::create(*Context::create({.threads = 1}), desc);
+    Field field = *Field::create(*Context::create({.threads = 1}), desc, desc);
     float expected = 0;
     for (int i = 0; i < 5; ++i) {
         ASSERT_TRUE(field.update(Furnace(), {}));

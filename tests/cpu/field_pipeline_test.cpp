@@ -4,18 +4,21 @@
 
 #include "probegi/builtin_scenes.h"
 #include "probegi/field.h"
+#include "support/field_setup.h"
 
 namespace probegi {
 namespace {
+
+using test::FieldSetup;
 
 // The library's own pipeline, from tracer to atlas, in a small built-in scene.
 class FieldPipeline : public testing::Test {
 protected:
     Field makeField(const Context& own) const {
-        FieldDesc desc;
-        desc.grid = *placeGrid(pose.bounds, {.counts = {6, 6, 6}});
+        FieldSetup desc;
+        desc.volumes = {*placeVolume(pose.bounds, {.counts = {6, 6, 6}})};
         desc.raysPerProbe = 48;
-        return *Field::create(own, desc);
+        return *Field::create(own, desc, desc);
     }
     std::unique_ptr<Tracer> makeTracer(const Context& own) const {
         return std::move(*makeEmbreeTracer(own, scene, pose));

@@ -4,21 +4,24 @@
 
 #include "kernels/random.h"
 #include "probegi/field.h"
+#include "support/field_setup.h"
 
 namespace probegi {
 namespace {
 
+using test::FieldSetup;
+
 const Context kContext = *Context::create({.threads = 2});
 
-FieldDesc smallDesc() {
-    FieldDesc d;
-    d.grid = {{-1, -1, -1}, {0.5f, 1.0f, 0.7f}, {6, 4, 5}};
+FieldSetup smallDesc() {
+    FieldSetup d;
+    d.volumes[0] = {{-1, -1, -1}, {0.5f, 1.0f, 0.7f}, {6, 4, 5}};
     d.raysPerProbe = 64;
     return d;
 }
 
 std::vector<RayDatum> constantData(const FieldDesc& d, glm::vec3 radiance, float distance) {
-    return std::vector<RayDatum>(std::size_t(probeCount(d.grid)) * d.raysPerProbe, {radiance, distance});
+    return std::vector<RayDatum>(std::size_t(probeCount(d.volumes[0])) * d.raysPerProbe, {radiance, distance});
 }
 
 std::vector<FieldQuery> randomQueries(int count) {
@@ -33,7 +36,7 @@ std::vector<FieldQuery> randomQueries(int count) {
 }
 
 TEST(Field, spanQueryEqualsSingleQueriesForAnyNumberOfThreads) {
-    FieldDesc desc = smallDesc();
+    FieldSetup desc = smallDesc();
     std::vector<RayDatum> data = constantData(desc, {}, 1);
     std::uint32_t state = 8;
     for (RayDatum& d : data)
@@ -41,7 +44,7 @@ TEST(Field, spanQueryEqualsSingleQueriesForAnyNumberOfThreads) {
     const auto queries = randomQueries(3000);
     std::vector<glm::vec3> first;
     for (const int threads : {1, 2, 5}) {
-        Field field = *Field::create(*Context::create({.threads = threads}), desc);
+        Field field = *Field::create(*Context::create({.threads = threads}), desc, desc);
         ASSERT_TRUE(field.update(data));
         ASSERT_TRUE(field.update(data));
         std::vector<glm::vec3> out(queries.size());
@@ -53,19 +56,19 @@ TEST(Field, spanQueryEqualsSingleQueriesForAnyNumberOfThreads) {
 }
 
 TEST(Field, memoryIsWithinItsBudget) {
-    FieldDesc desc;
-    desc.grid.counts = {22, 14, 32};
-    const Field field = *Field::create(kContext, desc);
-    EXPECT_LE(double(field.memory().persistentBytes()) / probeCount(desc.grid), 1600.0);
-    EXPECT_GE(double(field.memory().persistentBytes()) / probeCount(desc.grid), 64 * 6 + 256 * 4);
+    FieldSetup desc;
+    desc.volumes[0].counts = {22, 14, 32};
+    const Field field = *Field::create(kContext, desc, desc);
+    EXPECT_LE(double(field.memory().persistentBytes()) / probeCount(desc), 1600.0);
+    EXPECT_GE(double(field.memory().persistentBytes()) / probeCount(desc), 64 * 6 + 256 * 4);
 }
 
 // Refused before any memory is asked for: the query reaches 2^32 visibility texels.
 TEST(Field, moreVisibilityThanTheQueryReachesDoesNotFit) {
-    FieldDesc desc;
-    desc.grid = {{0, 0, 0}, {1, 1, 1}, {256, 256, 256}};
+    FieldSetup desc;
+    desc.volumes = {{{0, 0, 0}, {1, 1, 1}, {256, 256, 256}}};
     desc.visibilityTexels = 64;
-    const auto field = Field::create(kContext, desc);
+    const auto field = Field::create(kContext, desc, desc);
     ASSERT_FALSE(field);
     EXPECT_EQ(field.error().code, ErrorCode::outOfMemory);
 }

@@ -9,6 +9,7 @@
 
 #include "kernels/probe/octahedral_texel.h"
 #include "probegi/probegi.h"
+#include "support/field_setup.h"
 
 namespace probegi::test {
 namespace {
@@ -51,7 +52,7 @@ std::vector<std::uint32_t> bitsOf(const Field& field) {
     };
     std::vector<FieldQuery> queries;
     const FieldDesc& desc = field.desc();
-    for (int probe = 0; probe < probeCount(desc.grid); ++probe) {
+    for (int probe = 0; probe < probeCount(desc); ++probe) {
         add(field.probeBackfaceShare(probe));
         eachDirection(desc.irradianceTexels, [&](glm::vec3 n) {
             const glm::vec3 e = field.probeIrradiance(probe, n);
@@ -62,7 +63,7 @@ std::vector<std::uint32_t> bitsOf(const Field& field) {
             add(moments.x);
             add(moments.y);
         });
-        queries.push_back({probePosition(desc.grid, probe) + glm::vec3(0.13f, 0.21f, -0.17f), {0, 1, 0}});
+        queries.push_back({probePosition(desc.volumes[0], probe) + glm::vec3(0.13f, 0.21f, -0.17f), {0, 1, 0}});
     }
     std::vector<glm::vec3> answers(queries.size());
     field.irradiance(queries, answers).value();
@@ -80,13 +81,13 @@ std::vector<std::vector<std::uint32_t>> partsOn(int threads, FieldRules rules) {
     const int moving[] = {kDoor};
     const auto tracer = makeMovableEmbreeTracer(context, scene, pose, {.nodes = moving}).value();
     const Lighting lighting{pose.lights, scene.sky};
-    FieldDesc desc;
-    desc.grid = placeGrid(pose.bounds, {.counts = {7, 4, 5}}).value();
+    FieldSetup desc;
+    desc.volumes = {placeVolume(pose.bounds, {.counts = {7, 4, 5}}).value()};
     desc.raysPerProbe = 40;
     desc.irradianceTexels = 6;
     desc.visibilityTexels = 8;
     desc.rules = rules;
-    Field field = Field::create(context, desc).value();
+    Field field = Field::create(context, desc, desc).value();
     std::vector<std::vector<std::uint32_t>> parts;
     const auto update = [&](int updates) {
         for (int i = 0; i < updates; ++i) field.update(*tracer, lighting).value();
@@ -96,7 +97,7 @@ std::vector<std::vector<std::uint32_t>> partsOn(int threads, FieldRules rules) {
     update(4);
     scene.nodes[kDoor].rotation = glm::angleAxis(1.2f, glm::vec3(0, 1, 0));
     tracer->setPose(poseAt(scene)).value();
-    field.notify(FieldEvent::largeObjectChange);
+    field.control().notify(FieldEvent::largeObjectChange);
     update(4);
     EXPECT_EQ(field.converge(*tracer, lighting, 1e-6f, 12).value().updates, 12);
     parts.push_back(bitsOf(field));

@@ -5,14 +5,17 @@
 
 #include "kernels/random.h"
 #include "probegi/field.h"
+#include "support/field_setup.h"
 
 namespace probegi {
 namespace {
 
+using test::FieldSetup;
+
 constexpr int kAlong = 6, kRays = 256, kFixed = 16;
 
 struct Row {
-    FieldDesc desc;
+    FieldSetup desc;
     float light = 1, distance = 1;  // of the update rays; the light is spread evenly from half to one and a half of it
     std::vector<RayDatum> rays;
     std::vector<FixedRayDatum> fixed;
@@ -20,12 +23,12 @@ struct Row {
     std::uint32_t state = 7;
 
     Row() {
-        desc.grid = {glm::vec3(0.0f), glm::vec3(1.0f), {kAlong, 2, 2}};
+        desc.volumes = {{glm::vec3(0.0f), glm::vec3(1.0f), {kAlong, 2, 2}}};
         desc.raysPerProbe = kRays;
         desc.fixedRays = kFixed;
-        rays.resize(std::size_t(probeCount(desc.grid)) * kRays);
-        fixed.assign(std::size_t(probeCount(desc.grid)) * kFixed, {1, 0, 1});
-        field.emplace(*Field::create(*Context::create({.threads = 2}), desc));
+        rays.resize(std::size_t(probeCount(desc)) * kRays);
+        fixed.assign(std::size_t(probeCount(desc)) * kFixed, {1, 0, 1});
+        field.emplace(*Field::create(*Context::create({.threads = 2}), desc, desc));
     }
     void update(int times, bool withFixedRays = true) {
         for (int i = 0; i < times; ++i) {
@@ -118,10 +121,10 @@ TEST(FieldQueryTest, aConstantFieldIsConstant) {
     for (RayDatum& r : row.rays) r = {glm::vec3(1.0f), 1.0f};
     for (const FieldRules rules : {FieldRules::measured, FieldRules::paper})
         for (const LeakGuard guard : {LeakGuard::none, LeakGuard::moments}) {
-            FieldDesc desc = row.desc;
+            FieldSetup desc = row.desc;
             desc.guard = guard;
             desc.rules = rules;
-            Field field = *Field::create(*Context::create({.threads = 1}), desc);
+            Field field = *Field::create(*Context::create({.threads = 1}), desc, desc);
             ASSERT_TRUE(field.update(row.rays));
             for (const glm::vec3 at : {glm::vec3(2.3f, 0.4f, 0.7f), glm::vec3(0, 0, 0), glm::vec3(-3, 9, 0.5f)})
                 for (const glm::vec3 n : {glm::vec3(0, 1, 0), glm::vec3(0.6f, 0, -0.8f)}) {

@@ -8,15 +8,18 @@
 #include "kernels/probe/octahedral_texel.h"
 #include "kernels/probe/storage.h"
 #include "kernels/random.h"
+#include "support/field_setup.h"
 
 namespace probegi {
 namespace {
+
+using test::FieldSetup;
 
 constexpr int kProbes = 8;
 
 // Random texels, in maps of 6 (irradiance) and 10 (moments) a side.
 struct Maps {
-    FieldDesc desc;
+    FieldSetup desc;
     std::vector<std::uint16_t> irradiance;
     std::vector<std::uint32_t> visibility;
     TapTable irradianceTaps = makeTapTable(6), visibilityTaps = makeTapTable(10);

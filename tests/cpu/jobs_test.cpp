@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "probegi/probegi.h"
+#include "support/field_setup.h"
 #include "support/jobs.h"
 
 namespace probegi::test {
@@ -17,14 +18,14 @@ Outcome outcomeOn(const Context& context) {
     const ScenePose pose = poseAt(scene);
     const Lighting lighting{pose.lights, scene.sky};
     const auto tracer = makeEmbreeTracer(context, scene, pose).value();
-    FieldDesc desc;
+    FieldSetup desc;
     desc.raysPerProbe = 32;
-    desc.grid = placeGrid(pose.bounds, {.targetProbes = 200}).value();
-    Field field = Field::create(context, desc).value();
+    desc.volumes = {placeVolume(pose.bounds, {.targetProbes = 200}).value()};
+    Field field = Field::create(context, desc, desc).value();
     for (int i = 0; i < 3; ++i) field.update(*tracer, lighting).value();
     std::vector<FieldQuery> queries;
     for (int i = 0; i < 5000; ++i)
-        queries.push_back({.position = probePosition(desc.grid, i % 200) + 0.01f * float(i % 7)});
+        queries.push_back({.position = probePosition(desc.volumes[0], i % 200) + 0.01f * float(i % 7)});
     Outcome outcome;
     outcome.irradiance.resize(queries.size());
     field.irradiance(queries, outcome.irradiance).value();

@@ -3,6 +3,7 @@
 
 #include "probegi/field.h"
 #include "support/analytic_tracer.h"
+#include "support/field_setup.h"
 
 namespace probegi::test {
 namespace {
@@ -32,9 +33,9 @@ private:
 };
 
 float upwards(bool tells, int updates) {
-    FieldDesc desc;
-    desc.grid = {{-0.5f, 0, -0.5f}, glm::vec3(0.9f), {2, 2, 2}};
-    Field field = *Field::create(*Context::create({.threads = 1}), desc);
+    FieldSetup desc;
+    desc.volumes = {{{-0.5f, 0, -0.5f}, glm::vec3(0.9f), {2, 2, 2}}};
+    Field field = *Field::create(*Context::create({.threads = 1}), desc, desc);
     EXPECT_TRUE(field.converge(LampTracer(tells), {}, 1e-9f, updates));
     float sum = 0;
     for (int probe = 0; probe < 8; ++probe) sum += field.probeIrradiance(probe, {0, 1, 0}).x;

@@ -11,6 +11,7 @@
 #include "cpu/probe_query.h"
 #include "kernels/probe/storage.h"
 #include "scalar_query.h"
+#include "support/field_setup.h"
 
 namespace probegi {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 class RandomField {
 public:
     RandomField(LeakGuard guard, FieldRules rules, int visibilityTexels) {
-        m_desc.grid = {.origin = {-1, 2, -3}, .spacing = {1.0f, 0.5f, 0.75f}, .counts = {5, 6, 4}};
+        m_desc.volumes = {{.origin = {-1, 2, -3}, .spacing = {1.0f, 0.5f, 0.75f}, .counts = {5, 6, 4}}};
         m_desc.guard = guard;
         m_desc.rules = rules;
         m_desc.irradianceTexels = 8;
@@ -50,7 +51,7 @@ public:
         view.backfaceShare = m_backfaceShare.data();
         view.irradianceTaps = &m_irradianceTaps;
         view.visibilityTaps = &m_visibilityTaps;
-        view.inverseSpacing = 1.0f / m_desc.grid.spacing;
+        view.inverseSpacing = 1.0f / m_desc.volumes[0].spacing;
         view.minSpacing = 0.5f;
         view.inverseMaxDistance = 0.4f;
         return view;
@@ -81,7 +82,7 @@ public:
 
 private:
     std::mt19937 m_random{7};
-    FieldDesc m_desc;
+    FieldSetup m_desc;
     std::vector<std::uint16_t> m_irradiance;
     std::vector<std::uint32_t> m_visibility;
     std::vector<float> m_backfaceShare;

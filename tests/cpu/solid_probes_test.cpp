@@ -4,19 +4,23 @@
 #include <gtest/gtest.h>
 
 #include "cpu/probe_query.h"
+#include "field/control_impl.h"
+#include "support/field_setup.h"
 
 namespace probegi {
 namespace {
 
+using test::FieldSetup;
+
 // 5 x 4 x 3 probes a metre apart that see `free` metres in every direction, all in doubt and trusted to have a way.
 struct Volume {
-    FieldDesc desc;
+    FieldSetup desc;
     std::vector<std::uint32_t> visibility;
     std::vector<kernels::ProbeSides> sides;
     TapTable taps = makeTapTable(8);
 
     explicit Volume(float free) {
-        desc.grid = {glm::vec3(0.0f), glm::vec3(1.0f), {5, 4, 3}};
+        desc.volumes = {{glm::vec3(0.0f), glm::vec3(1.0f), {5, 4, 3}}};
         desc.visibilityTexels = 8;
         const auto bits = std::uint32_t(free / 4 * 65535);
         visibility.assign(60 * 64, bits | bits << 16);
@@ -27,8 +31,11 @@ struct Volume {
         view.desc = &desc;
         view.visibility = visibility.data();
         view.visibilityTaps = &taps;
-        view.inverseMaxDistance = 0.25f;
-        findSolidProbes(*Context::create({.threads = 2}), view, sides);
+        std::vector<kernels::Volume> volumes = makeVolumes(desc);
+        volumes[0].inverseMaxDistance = 0.25f;
+        view.volumes = volumes;
+        const FieldControl control = makeFieldControl(desc, desc);
+        findSolidProbes(*Context::create({.threads = 2}), view, control.tasks(), sides);
     }
     static std::size_t at(int x, int y, int z) { return std::size_t(x + 5 * (y + 4 * z)); }
 };

@@ -1,6 +1,7 @@
 // The books of Field::converge against rooms of which every update is a closed form: light that arrives is that of the
 // lamps and the albedo's share of the light that was there.
 #include "field/convergence.h"
+#include "support/field_setup.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +10,8 @@
 
 namespace probegi {
 namespace {
+
+using test::FieldSetup;
 
 // Blocks of 4 x 4 x 4 probes along x, each a room of its own.
 struct Room {
@@ -25,13 +28,13 @@ struct Ending {
 };
 
 Ending converge(const std::vector<Room>& rooms, float tolerance, int maxUpdates, int seed = 1) {
-    FieldDesc desc;
-    desc.grid.counts = {4 * int(rooms.size()), 4, 4};
+    FieldSetup desc;
+    desc.volumes[0].counts = {4 * int(rooms.size()), 4, 4};
     Ending end{std::vector<double>(rooms.size()), Convergence(desc, tolerance, maxUpdates)};
     std::mt19937 random{std::uint32_t(seed)};
     std::normal_distribution<double> normal;
     std::vector<double> turned(rooms.size());
-    const auto probes = std::size_t(probeCount(desc.grid));
+    const auto probes = std::size_t(probeCount(desc));
     while (end.books.updates() < maxUpdates && !end.books.converged()) {
         const double kept = end.books.kept().irradiance;
         for (std::size_t i = 0; i < rooms.size(); ++i) {
@@ -129,8 +132,8 @@ TEST(Convergence, wallsAndBlackRoomsDoNotBlock) {
 
 // The average's weights 3 / (n + 2) forget the first ray set; distances average all sets that turned.
 TEST(Convergence, keepsWhatItSays) {
-    FieldDesc desc;
-    desc.grid.counts = {4, 4, 4};
+    FieldSetup desc;
+    desc.volumes[0].counts = {4, 4, 4};
     Convergence books(desc, 0.01f, 4);
     EXPECT_EQ(books.kept().irradiance, 0);
     EXPECT_EQ(books.kept().visibility, 0);
@@ -148,8 +151,8 @@ TEST(Convergence, keepsWhatItSays) {
 // What remains: one and a half standard errors of the average, from the updates' scatter, and what the average still
 // drifts by, which falls by 2^3 from half as many updates where light has no bounces.
 TEST(Convergence, whatRemainsIsScatterAndDrift) {
-    FieldDesc desc;
-    desc.grid.counts = {4, 4, 4};
+    FieldSetup desc;
+    desc.volumes[0].counts = {4, 4, 4};
     Convergence books(desc, 1e-6f, 1000);
     const std::vector<float> shares(64, 0.0f);
     const auto tell = [&](double light) { books.advance(std::vector<float>(64, float(light)), shares); };

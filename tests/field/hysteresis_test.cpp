@@ -5,7 +5,7 @@
 namespace probegi {
 namespace {
 
-const FieldDesc kDesc{.hysteresis = 0.9f, .visibilityHysteresis = 0.8f};
+const FieldSettings kSettings{.hysteresis = 0.9f, .visibilityHysteresis = 0.8f};
 
 // The factors on both hysteresis values in the frames after an event.
 std::vector<std::pair<float, float>> framesAfter(FieldEvent event, int frames) {
@@ -13,7 +13,7 @@ std::vector<std::pair<float, float>> framesAfter(FieldEvent event, int frames) {
     schedule.notify(event);
     std::vector<std::pair<float, float>> result;
     for (int i = 0; i < frames; ++i) {
-        const FrameHysteresis h = schedule.current(kDesc, false);
+        const FrameHysteresis h = schedule.current(kSettings, false);
         result.emplace_back(h.irradiance / 0.9f, h.visibility / 0.8f);
         schedule.advance();
     }
@@ -21,7 +21,7 @@ std::vector<std::pair<float, float>> framesAfter(FieldEvent event, int frames) {
 }
 
 TEST(Hysteresis, firstFrameKeepsNothing) {
-    const FrameHysteresis h = HysteresisSchedule().current(kDesc, true);
+    const FrameHysteresis h = HysteresisSchedule().current(kSettings, true);
     EXPECT_EQ(h.irradiance, 0.0f);
     EXPECT_EQ(h.visibility, 0.0f);
 }
@@ -47,7 +47,7 @@ TEST(Hysteresis, ofTwoEventsTheStrongerCounts) {
     HysteresisSchedule schedule;
     schedule.notify(FieldEvent::largeLightChange);
     schedule.notify(FieldEvent::smallLightChange);
-    EXPECT_FLOAT_EQ(schedule.current(kDesc, false).irradiance, 0.45f);
+    EXPECT_FLOAT_EQ(schedule.current(kSettings, false).irradiance, 0.45f);
 }
 
 }  // namespace

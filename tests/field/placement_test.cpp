@@ -5,13 +5,20 @@
 
 #include "field/layout.h"
 #include "probegi/field.h"
+#include "support/field_setup.h"
 
 namespace probegi {
 namespace {
 
+using test::FieldSetup;
+
+Result<void> validate(const FieldSetup& setup) {
+    return validateFieldDesc(setup).and_then([&] { return validateFieldSettings(setup); });
+}
+
 TEST(Placement, coversTheSceneWithACellOfMargin) {
     const Bounds bounds{{-19, -1, -12}, {18, 14, 11}};
-    const auto grid = placeGrid(bounds);
+    const auto grid = placeVolume(bounds);
     ASSERT_TRUE(grid);
     const glm::vec3 last = grid->origin + grid->spacing * glm::vec3(grid->counts - 1);
     for (int a = 0; a < 3; ++a) {
@@ -25,43 +32,43 @@ TEST(Placement, coversTheSceneWithACellOfMargin) {
 
 TEST(Placement, doesNotDependOnTheScale) {
     const glm::vec3 size(0.02f, 0.01f, 0.03f);
-    const auto small = placeGrid({glm::vec3(0), size});
-    const auto large = placeGrid({glm::vec3(0), size * 65536.0f});  // a power of two: the same rounding
+    const auto small = placeVolume({glm::vec3(0), size});
+    const auto large = placeVolume({glm::vec3(0), size * 65536.0f});  // a power of two: the same rounding
     ASSERT_TRUE(small && large);
     EXPECT_EQ(small->counts, large->counts);
 }
 
 TEST(Placement, honoursCountsAndKeepsTheMargin) {
     const Bounds bounds{{0, 0, 0}, {10, 4, 10}};
-    const auto grid = placeGrid(bounds, {.counts = {12, 6, 12}});
+    const auto grid = placeVolume(bounds, {.counts = {12, 6, 12}});
     ASSERT_TRUE(grid);
     EXPECT_EQ(grid->counts, glm::ivec3(12, 6, 12));
     EXPECT_LE(grid->origin.x, -grid->spacing.x);
     EXPECT_GE(grid->origin.x, -1.5f * grid->spacing.x);
-    const auto tiny = placeGrid(bounds, {.counts = {2, 2, 2}});
+    const auto tiny = placeVolume(bounds, {.counts = {2, 2, 2}});
     ASSERT_TRUE(tiny);
     EXPECT_LT(tiny->origin.x, 0.0f);
 }
 
 TEST(Placement, aFlatSceneStillGetsCells) {
-    const auto grid = placeGrid({{0, 0, 0}, {10, 0, 10}});
+    const auto grid = placeVolume({{0, 0, 0}, {10, 0, 10}});
     ASSERT_TRUE(grid);
     EXPECT_GE(grid->counts.y, 2);
     EXPECT_LT(grid->origin.y, 0.0f);
 }
 
 TEST(Placement, refusesWhatHasNoExtent) {
-    EXPECT_FALSE(placeGrid({{1, 1, 1}, {1, 1, 1}}));
-    EXPECT_FALSE(placeGrid({{0, 0, 0}, {std::numeric_limits<float>::infinity(), 1, 1}}));
-    EXPECT_FALSE(placeGrid({{0, 0, 0}, {1, 1, 1}}, {.counts = {1, 5, 5}}));
-    EXPECT_FALSE(placeGrid({{0, 0, 0}, {1, 1, 1}}, {.targetProbes = 1}));
-    EXPECT_FALSE(placeGrid({{0, 0, 0}, {1, 1, 1}}, {.marginCells = -1}));
+    EXPECT_FALSE(placeVolume({{1, 1, 1}, {1, 1, 1}}));
+    EXPECT_FALSE(placeVolume({{0, 0, 0}, {std::numeric_limits<float>::infinity(), 1, 1}}));
+    EXPECT_FALSE(placeVolume({{0, 0, 0}, {1, 1, 1}}, {.counts = {1, 5, 5}}));
+    EXPECT_FALSE(placeVolume({{0, 0, 0}, {1, 1, 1}}, {.targetProbes = 1}));
+    EXPECT_FALSE(placeVolume({{0, 0, 0}, {1, 1, 1}}, {.marginCells = -1}));
 }
 
 // A cell and a quarter on each side, of cells that follow from the counts; too few probes: the scene's size twice.
 TEST(Placement, marginsAreExact) {
     const Bounds bounds{{-5, 0, 0}, {5, 4, 20}};
-    const auto grid = placeGrid(bounds, {.counts = {12, 6, 12}, .marginCells = 1});
+    const auto grid = placeVolume(bounds, {.counts = {12, 6, 12}, .marginCells = 1});
     ASSERT_TRUE(grid);
     EXPECT_FLOAT_EQ(grid->spacing.x, 10 / 8.5f);
     EXPECT_FLOAT_EQ(grid->spacing.y, 4 / 2.5f);
@@ -69,10 +76,10 @@ TEST(Placement, marginsAreExact) {
     EXPECT_FLOAT_EQ(grid->origin.x, -5.5f * 10 / 8.5f);
     EXPECT_FLOAT_EQ(grid->origin.y, 2 - 2.5f * 4 / 2.5f);
     EXPECT_FLOAT_EQ(grid->origin.z, 10 - 5.5f * 20 / 8.5f);
-    const auto tiny = placeGrid(bounds, {.counts = {2, 2, 2}, .marginCells = 1});
+    const auto tiny = placeVolume(bounds, {.counts = {2, 2, 2}, .marginCells = 1});
     ASSERT_TRUE(tiny);
     EXPECT_FLOAT_EQ(tiny->spacing.x, 20);
-    const auto flat = placeGrid({{0, 0, 0}, {10, 0, 10}}, {.counts = {4, 4, 4}, .marginCells = 0});
+    const auto flat = placeVolume({{0, 0, 0}, {10, 0, 10}}, {.counts = {4, 4, 4}, .marginCells = 0});
     ASSERT_TRUE(flat);
     EXPECT_FLOAT_EQ(flat->spacing.y, 0.01f / 2.5f);
 }
@@ -87,7 +94,7 @@ TEST(Placement, usesTheTarget) {
     };
     for (const int target : {1000, 5000, 30000})
         for (const float margin : {0.0f, 1.0f, 2.5f}) {
-            const auto grid = placeGrid({glm::vec3(0), size}, {.targetProbes = target, .marginCells = margin});
+            const auto grid = placeVolume({glm::vec3(0), size}, {.targetProbes = target, .marginCells = margin});
             ASSERT_TRUE(grid);
             EXPECT_LE(probeCount(*grid), target);
             EXPECT_EQ(probeCount(*grid), probesAt(grid->spacing.x, margin));
@@ -97,33 +104,33 @@ TEST(Placement, usesTheTarget) {
 
 TEST(Placement, limitsAreInclusive) {
     const Bounds box{{0, 0, 0}, {1, 1, 1}};
-    EXPECT_TRUE(placeGrid(box, {.marginCells = 0}));
-    EXPECT_TRUE(placeGrid(box, {.targetProbes = 1 << 24, .marginCells = 100}));
-    EXPECT_FALSE(placeGrid(box, {.marginCells = 100.5f}));
-    EXPECT_FALSE(placeGrid(box, {.marginCells = std::nanf("")}));
-    EXPECT_TRUE(placeGrid(box, {.targetProbes = 8, .marginCells = 0}));
-    EXPECT_FALSE(placeGrid(box, {.targetProbes = 7}));
-    EXPECT_FALSE(placeGrid(box, {.targetProbes = (1 << 24) + 1}));
+    EXPECT_TRUE(placeVolume(box, {.marginCells = 0}));
+    EXPECT_TRUE(placeVolume(box, {.targetProbes = 1 << 24, .marginCells = 100}));
+    EXPECT_FALSE(placeVolume(box, {.marginCells = 100.5f}));
+    EXPECT_FALSE(placeVolume(box, {.marginCells = std::nanf("")}));
+    EXPECT_TRUE(placeVolume(box, {.targetProbes = 8, .marginCells = 0}));
+    EXPECT_FALSE(placeVolume(box, {.targetProbes = 7}));
+    EXPECT_FALSE(placeVolume(box, {.targetProbes = (1 << 24) + 1}));
     for (int axis = 0; axis < 3; ++axis)
         for (const auto& [count, taken] : {std::pair{2, true}, {1024, true}, {1, false}, {1025, false}}) {
             PlacementDesc desc{.counts = {3, 3, 3}};
             desc.counts[axis] = count;
-            EXPECT_EQ(bool(placeGrid(box, desc)), taken) << axis << ' ' << count;
+            EXPECT_EQ(bool(placeVolume(box, desc)), taken) << axis << ' ' << count;
         }
     // Probes a micrometre apart are the closest.
-    EXPECT_TRUE(placeGrid({{0, 0, 0}, glm::vec3(1.01e-6f * 8.5f)}, {.counts = glm::ivec3(12), .marginCells = 1}));
-    EXPECT_FALSE(placeGrid({{0, 0, 0}, glm::vec3(0.99e-6f * 8.5f)}, {.counts = glm::ivec3(12), .marginCells = 1}));
+    EXPECT_TRUE(placeVolume({{0, 0, 0}, glm::vec3(1.01e-6f * 8.5f)}, {.counts = glm::ivec3(12), .marginCells = 1}));
+    EXPECT_FALSE(placeVolume({{0, 0, 0}, glm::vec3(0.99e-6f * 8.5f)}, {.counts = glm::ivec3(12), .marginCells = 1}));
 }
 
 TEST(Grid, positionsFollowTheLinearIndex) {
-    const GridDesc grid{{1, 2, 3}, {0.5f, 1, 2}, {3, 4, 5}};
+    const VolumeDesc grid{{1, 2, 3}, {0.5f, 1, 2}, {3, 4, 5}};
     EXPECT_EQ(probePosition(grid, 0), glm::vec3(1, 2, 3));
     EXPECT_EQ(probePosition(grid, 2 + 3 * (3 + 4 * 4)), glm::vec3(2, 5, 11));
     EXPECT_EQ(probeCount(grid), 60);
 }
 
 TEST(Placement, aSceneTooSmallForProbesIsToldInItsOwnTerms) {
-    const auto grid = placeGrid({{0, 0, 0}, {4e-6f, 4e-6f, 0}});
+    const auto grid = placeVolume({{0, 0, 0}, {4e-6f, 4e-6f, 0}});
     ASSERT_FALSE(grid);
     EXPECT_NE(grid.error().message.find("the scene is only 4e-06 m large"), std::string::npos) << grid.error().message;
     EXPECT_EQ(grid.error().message.find("grid."), std::string::npos) << grid.error().message;
@@ -131,9 +138,9 @@ TEST(Placement, aSceneTooSmallForProbesIsToldInItsOwnTerms) {
 
 TEST(FieldDesc, gridsTooFarAwayAreRefused) {
     const auto at = [](glm::vec3 origin, float spacing) {
-        FieldDesc d;
-        d.grid = {origin, glm::vec3(spacing), glm::ivec3(8)};
-        const auto ok = validateFieldDesc(d);
+        FieldSetup d;
+        d.volumes[0] = {origin, glm::vec3(spacing), glm::ivec3(8)};
+        const auto ok = validate(d);
         return ok ? std::string("accepted") : ok.error().message;
     };
     EXPECT_EQ(at({1e4f, 0, -1e4f}, 0.5f), "accepted");
@@ -145,26 +152,27 @@ TEST(FieldDesc, gridsTooFarAwayAreRefused) {
 // Every member of FieldDesc that is out of range is refused by name.
 TEST(FieldDesc, refusalsNameTheMember) {
     const auto message = [](auto&& edit) -> std::string {
-        FieldDesc d;
+        FieldSetup d;
         edit(d);
-        const auto ok = validateFieldDesc(d);
+        const auto ok = validate(d);
         return ok ? "accepted" : ok.error().message;
     };
-    EXPECT_EQ(message([](FieldDesc&) {}), "accepted");
-    EXPECT_NE(message([](FieldDesc& d) { d.raysPerProbe = 7; }).find("raysPerProbe is 7"), std::string::npos);
-    EXPECT_NE(message([](FieldDesc& d) { d.irradianceTexels = 7; }).find("irradianceTexels"), std::string::npos);
-    EXPECT_NE(message([](FieldDesc& d) { d.visibilityTexels = 66; }).find("visibilityTexels"), std::string::npos);
-    EXPECT_NE(message([](FieldDesc& d) { d.hysteresis = 1.0f; }).find("hysteresis"), std::string::npos);
-    EXPECT_NE(message([](FieldDesc& d) { d.hysteresis = std::nanf(""); }).find("hysteresis"), std::string::npos);
-    EXPECT_NE(message([](FieldDesc& d) { d.grid.counts.y = 1; }).find("grid.counts"), std::string::npos);
-    EXPECT_NE(message([](FieldDesc& d) {
-                  d.grid.counts = {1024, 1024, 1024};
+    EXPECT_EQ(message([](FieldSetup&) {}), "accepted");
+    EXPECT_NE(message([](FieldSetup& d) { d.raysPerProbe = 7; }).find("raysPerProbe is 7"), std::string::npos);
+    EXPECT_NE(message([](FieldSetup& d) { d.irradianceTexels = 7; }).find("irradianceTexels"), std::string::npos);
+    EXPECT_NE(message([](FieldSetup& d) { d.visibilityTexels = 66; }).find("visibilityTexels"), std::string::npos);
+    EXPECT_NE(message([](FieldSetup& d) { d.hysteresis = 1.0f; }).find("hysteresis"), std::string::npos);
+    EXPECT_NE(message([](FieldSetup& d) { d.hysteresis = std::nanf(""); }).find("hysteresis"), std::string::npos);
+    EXPECT_NE(message([](FieldSetup& d) { d.volumes[0].counts.y = 1; }).find("volumes[0].counts"), std::string::npos);
+    EXPECT_NE(message([](FieldSetup& d) {
+                  d.volumes[0].counts = {1024, 1024, 1024};
               }).find("number of probes"),
               std::string::npos);
-    EXPECT_NE(message([](FieldDesc& d) { d.grid.spacing.z = 0; }).find("grid.spacing"), std::string::npos);
-    EXPECT_NE(message([](FieldDesc& d) { d.grid.origin.x = std::nanf(""); }).find("grid.origin"), std::string::npos);
-    EXPECT_NE(message([](FieldDesc& d) { d.visibilityExponent = 0; }).find("visibilityExponent"), std::string::npos);
-    EXPECT_NE(message([](FieldDesc& d) { d.selfShadowBias = -1; }).find("selfShadowBias"), std::string::npos);
+    EXPECT_NE(message([](FieldSetup& d) { d.volumes[0].spacing.z = 0; }).find("volumes[0].spacing"), std::string::npos);
+    EXPECT_NE(message([](FieldSetup& d) { d.volumes[0].origin.x = std::nanf(""); }).find("volumes[0].origin"),
+              std::string::npos);
+    EXPECT_NE(message([](FieldSetup& d) { d.visibilityExponent = 0; }).find("visibilityExponent"), std::string::npos);
+    EXPECT_NE(message([](FieldSetup& d) { d.selfShadowBias = -1; }).find("selfShadowBias"), std::string::npos);
 }
 
 }  // namespace

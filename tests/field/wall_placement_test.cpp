@@ -36,12 +36,12 @@ test::AnalyticTracer room(glm::vec3 lower, glm::vec3 upper, float thickness, flo
 }
 
 // Cells from a surface to the first layer of probes in front of it.
-float cellsInFront(const GridDesc& grid, int axis, float place, bool up) {
+float cellsInFront(const VolumeDesc& grid, int axis, float place, bool up) {
     const float x = (place - grid.origin[axis]) / grid.spacing[axis];
     return up ? std::ceil(x) - x : x - std::floor(x);
 }
 
-void expectMargin(const GridDesc& grid, const Bounds& bounds, float cells) {
+void expectMargin(const VolumeDesc& grid, const Bounds& bounds, float cells) {
     const glm::vec3 last = grid.origin + grid.spacing * glm::vec3(grid.counts - 1);
     for (int a = 0; a < 3; ++a) {
         EXPECT_LE(grid.origin[a], bounds.lower[a] - 0.999f * cells * grid.spacing[a]);
@@ -52,7 +52,7 @@ void expectMargin(const GridDesc& grid, const Bounds& bounds, float cells) {
 const glm::vec3 kLower(1.3f, -0.4f, -7.1f), kUpper(7.5f, 2.5f, -2.2f);
 
 // How far from a fifth of a cell, on average over the room's six sides.
-float cellsOff(const GridDesc& grid) {
+float cellsOff(const VolumeDesc& grid) {
     float sum = 0;
     for (int axis = 0; axis < 3; ++axis)
         sum += std::abs(cellsInFront(grid, axis, kLower[axis], true) - 0.2f) +
@@ -64,10 +64,10 @@ TEST(WallPlacement, theFirstProbesStandAFifthOfACellInsideARoom) {
     for (const float thickness : {0.05f, 0.2f, 0.7f})
         for (const auto& [target, bound] : {std::pair(500, 0.30f), std::pair(2000, 0.17f), std::pair(8192, 0.08f)}) {
             const test::AnalyticTracer world = room(kLower, kUpper, thickness);
-            const auto grid = placeGrid(world, {.targetProbes = target});
+            const auto grid = placeVolume(world, {.targetProbes = target});
             ASSERT_TRUE(grid) << grid.error().message;
             EXPECT_LT(cellsOff(*grid), bound) << thickness << ' ' << target;
-            EXPECT_LE(cellsOff(*grid), cellsOff(*placeGrid(world.bounds(), {.targetProbes = target})));
+            EXPECT_LE(cellsOff(*grid), cellsOff(*placeVolume(world.bounds(), {.targetProbes = target})));
             EXPECT_LE(probeCount(*grid), target);
             for (int axis = 0; axis < 3; ++axis)
                 EXPECT_LT(std::abs(grid->spacing[axis] / grid->spacing[0] - 1), 0.21f) << "near-cubic cells";
@@ -78,14 +78,14 @@ TEST(WallPlacement, theFirstProbesStandAFifthOfACellInsideARoom) {
 TEST(WallPlacement, countsAndMarginAreKept) {
     const test::AnalyticTracer world = room(kLower, kUpper, 0.2f);
     for (const float margin : {0.0f, 1.0f, 2.0f}) {
-        const auto grid = placeGrid(world, {.counts = {12, 9, 11}, .marginCells = margin});
+        const auto grid = placeVolume(world, {.counts = {12, 9, 11}, .marginCells = margin});
         ASSERT_TRUE(grid);
         EXPECT_EQ(grid->counts, glm::ivec3(12, 9, 11));
         expectMargin(*grid, world.bounds(), margin);
     }
     // Too few probes for a margin, and so for any choice.
-    const auto tiny = placeGrid(world, {.counts = {2, 2, 2}});
-    const auto byBounds = placeGrid(world.bounds(), {.counts = {2, 2, 2}});
+    const auto tiny = placeVolume(world, {.counts = {2, 2, 2}});
+    const auto byBounds = placeVolume(world.bounds(), {.counts = {2, 2, 2}});
     ASSERT_TRUE(tiny && byBounds);
     EXPECT_EQ(tiny->origin, byBounds->origin);
 }
@@ -112,7 +112,7 @@ TEST(WallPlacement, floorsCountWhereThereAreNoWalls) {
     world.materials.resize(1);
     world.addQuad({-20, 0.35f, -20}, {0, 0, 40}, {40, 0, 0}, 0);  // faces up
     world.addSphere({0, 4, 0}, 1.5f, false, 0);
-    const auto grid = placeGrid(world), byBounds = placeGrid(world.bounds());
+    const auto grid = placeVolume(world), byBounds = placeVolume(world.bounds());
     ASSERT_TRUE(grid && byBounds);
     EXPECT_NEAR(cellsInFront(*grid, 1, 0.35f, true), 0.2f, 0.05f);
     expectMargin(*grid, world.bounds(), 1);
@@ -124,7 +124,7 @@ TEST(WallPlacement, floorsCountWhereThereAreNoWalls) {
 
 TEST(WallPlacement, aRoomThatIsTurnedKeepsItsGridButForFloorAndCeiling) {
     const test::AnalyticTracer world = room(kLower, kUpper, 0.2f, 30);
-    const auto grid = placeGrid(world), byBounds = placeGrid(world.bounds());
+    const auto grid = placeVolume(world), byBounds = placeVolume(world.bounds());
     ASSERT_TRUE(grid && byBounds);
     for (const int axis : {0, 2}) EXPECT_EQ(grid->origin[axis], byBounds->origin[axis]);
     EXPECT_NEAR(cellsInFront(*grid, 1, kLower.y, true), 0.2f, 0.15f);
@@ -137,12 +137,12 @@ TEST(WallPlacement, aLoneObjectAndAVoidKeepTheGridOfTheirBounds) {
     ball.addSphere({1, 2, 3}, 2, false, 0);
     addBox(inverted, kLower, kUpper, false);  // a solid: inside of it there is nobody
     for (const test::AnalyticTracer* world : {&ball, &inverted}) {
-        const auto grid = placeGrid(*world), byBounds = placeGrid(world->bounds());
+        const auto grid = placeVolume(*world), byBounds = placeVolume(world->bounds());
         ASSERT_TRUE(grid && byBounds);
         EXPECT_EQ(grid->origin, byBounds->origin);
         EXPECT_EQ(grid->spacing, byBounds->spacing);
     }
-    EXPECT_FALSE(placeGrid(test::AnalyticTracer()));  // no extent
+    EXPECT_FALSE(placeVolume(test::AnalyticTracer()));  // no extent
 }
 
 // Rooms to both sides of a wall cannot all be served: what counts is the error over all walls.
@@ -177,7 +177,7 @@ public:
 TEST(WallPlacement, anErrorOfTheTracerIsPassedOn) {
     BrokenTracer world;
     world.addSphere({0, 0, 0}, 1, true, 0);
-    const auto grid = placeGrid(world);
+    const auto grid = placeVolume(world);
     ASSERT_FALSE(grid);
     EXPECT_EQ(grid.error().code, ErrorCode::deviceLost);
 }

@@ -2,6 +2,7 @@
 #include "geometry/emitters.h"
 
 #include "field/probe_emitters.h"
+#include "support/field_setup.h"
 #include "tracer/tracer_scene.h"
 
 namespace probegi::test {
@@ -122,7 +123,7 @@ TEST(EmitterSearch, isEmptyByThePaperWithoutLooksAndWithoutEmitters) {
     TestScene s;
     s.add(quad(s.addMaterial(glowing({1, 1, 1}))));
     const auto tracer = trace(tracerMakers()[0], s);
-    FieldDesc desc;
+    FieldSetup desc;
     const EmitterSearch search = emitterSearch(desc, *tracer, 5);
     EXPECT_TRUE(search);
     EXPECT_EQ(search.looks, desc.emitterSamples);
@@ -132,7 +133,8 @@ TEST(EmitterSearch, isEmptyByThePaperWithoutLooksAndWithoutEmitters) {
     desc.rules = FieldRules::paper;
     EXPECT_FALSE(emitterSearch(desc, *tracer, 5));
     EXPECT_EQ(EmitterSearch().rayShare(1, 10.0f), 1.0f);
-    desc = {.emitterSamples = 0};
+    desc.emitterSamples = 0;
+    desc.rules = FieldRules::measured;
     EXPECT_FALSE(emitterSearch(desc, *tracer, 5));
     TestScene dark;
     dark.add(quad());

@@ -20,6 +20,6 @@ Result<float> askTwice(const Context& context, const FieldDesc& desc, std::span<
 
 Result<int> chained(const Context& context, const FieldDesc& desc) {
     return Field::create(context, desc)
-        .transform([](const Field& field) { return field.frame(); })
+        .transform([](const Field& field) { return field.control().frame(); })
         .and_then([](int frame) { return frame == 0 ? Result<int>(1) : fail(ErrorCode::malformed, "a sentence"); });
 }

@@ -1,8 +1,9 @@
 #include <gtest/gtest.h>
 
+#include "kernels/abi/dispatch.h"
+#include "kernels/abi/field_constants.h"
 #include "kernels/abi/gpu_passes.h"
 #include "kernels/abi/gpu_scene.h"
-#include "kernels/volume/gpu_volume.h"
 
 namespace probegi::kernels {
 namespace {
@@ -36,22 +37,29 @@ TEST(GpuScene, texelsHaveRedInTheLowestByte) {
     EXPECT_EQ(texelCodes(0x44ff2211u), vec3(0x11, 0x22, 0xff));
 }
 
-TEST(GpuVolume, probesCountXFirst) {
-    const ivec3 counts(3, 4, 5);
-    int probe = 0;
-    for (int z = 0; z < 5; ++z)
-        for (int y = 0; y < 4; ++y)
-            for (int x = 0; x < 3; ++x) EXPECT_EQ(gpuProbeCell(probe++, counts), ivec3(x, y, z));
+// As Recorder dispatches: a row of 32,768 groups at most, and no group too few.
+TEST(Dispatch, groupsCoverEveryThread) {
+    for (const uint count : {1u, 64u, 65u, 32768u * 64u, 32768u * 64u + 1u, 5000000u}) {
+        const uvec3 groups = threadGroups(count);
+        EXPECT_LE(groups.x, 32768u);
+        EXPECT_EQ(groups.z, 1u);
+        EXPECT_GE(std::uint64_t(groups.x) * groups.y * 64u, count);
+        EXPECT_LT(std::uint64_t(groups.x) * (groups.y - 1) * 64u, count) << "no row too many";
+    }
+    EXPECT_EQ(blockGroups(100u, 3u), uvec3(100, 3, 1));
+    EXPECT_EQ(blockGroups(70000u, 3u), uvec3(32768, 3, 3));
 }
 
-// Maps of 8 texels with a border of one lie 10 apart.
-TEST(GpuVolume, tilesHaveABorder) {
-    EXPECT_EQ(gpuTileOrigin({0, 0, 9}, 8), ivec2(1, 1));
-    EXPECT_EQ(gpuTileOrigin({2, 3, 9}, 8), ivec2(21, 31));
-    // The centre of texel (4, 5) of that tile in an atlas of 100 x 50.
-    const vec2 at = gpuAtlasCoordinates({2, 3, 0}, {4, 5}, 8, {0.01f, 0.02f});
-    EXPECT_NEAR(at.x, 0.255f, 1e-6f);
-    EXPECT_NEAR(at.y, 0.73f, 1e-6f);
+TEST(Dispatch, tasksAreCounted) {
+    const GpuTaskCounts counts = countedTasks(100u, 160u, 4u, 64u);
+    EXPECT_EQ(counts.tasks, 100u);
+    EXPECT_EQ(counts.perTask, uvec3(2, 1, 1));
+    EXPECT_EQ(counts.perRay, uvec3(250, 1, 1));
+    EXPECT_EQ(counts.perLook, uvec3(7, 1, 1));
+    EXPECT_EQ(counts.irradiance, uvec3(7, 1, 1)) << "16 probes and 64 texels a group";
+    EXPECT_EQ(counts.visibility, uvec3(25, 1, 1)) << "4 probes a group";
+    EXPECT_EQ(countedTasks(100u, 160u, 0u, 100u).irradiance, uvec3(7, 2, 1));
+    EXPECT_EQ(countedTasks(0u, 160u, 4u, 64u).perRay, uvec3(0, 0, 1)) << "no task, no group";
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ PathGuide::Block threeBoxes() {
 }
 
 PathGuide threeBoxGuide(float background) {
-    PathGuide guide(GridDesc{.origin = glm::vec3(-5.0f), .spacing = glm::vec3(10.0f), .counts = glm::ivec3(2)});
+    PathGuide guide(VolumeDesc{.origin = glm::vec3(-5.0f), .spacing = glm::vec3(10.0f), .counts = glm::ivec3(2)});
     for (std::size_t i = 0; i < guide.regionCount(); ++i) guide.setRegion(i, {threeBoxes()}, background);
     return guide;
 }
@@ -91,7 +91,7 @@ TEST(PathGuide, seenShareOfABoxFarAwayIsItsSolidAngle) {
 }
 
 TEST(PathGuide, withoutBoxesOrInTheDarkThereIsNothingToFollow) {
-    PathGuide guide(GridDesc{});
+    PathGuide guide(VolumeDesc{});
     PathGuide::Mixture mixture;
     guide.mixtureAt({1e6f, -1e6f, 0}, {0, 0, -1}, mixture);  // far outside the grid
     EXPECT_EQ(mixture.share, 0);
@@ -103,8 +103,8 @@ TEST(PathGuide, withoutBoxesOrInTheDarkThereIsNothingToFollow) {
 }
 
 /// A field over a scene, updated a few times.
-Field fieldOver(const ReferenceWorld& world, int updates, GridDesc grid) {
-    Field field = std::move(*Field::create(world.context, {.grid = grid, .raysPerProbe = 64}));
+Field fieldOver(const ReferenceWorld& world, int updates, VolumeDesc grid) {
+    Field field = std::move(*Field::create(world.context, {.volumes = {grid}, .raysPerProbe = 64}));
     for (int i = 0; i < updates; ++i) EXPECT_TRUE(field.update(*world.tracer, world.lighting));
     return field;
 }
@@ -150,7 +150,7 @@ class GuidedPicture : public testing::TestWithParam<const char*> {};
 
 TEST_P(GuidedPicture, agreesWithTheUnguidedInEveryBlock) {
     const ReferenceWorld world(std::move(*makeBuiltinScene(GetParam())), 2);
-    const Field field = fieldOver(world, 4, *placeGrid(world.pose.bounds, {.targetProbes = 1024}));
+    const Field field = fieldOver(world, 4, *placeVolume(world.pose.bounds, {.targetProbes = 1024}));
     const PathTracer tracer = world.pathTracer();
     ReferenceDesc desc = pictureOf(world, 64);
     const auto plain = tracer.render(desc);
@@ -173,7 +173,7 @@ TEST(Guided, sameBitsForOneAndTwoThreads) {
     std::vector<glm::vec3> pictures[2];
     for (int i = 0; i < 2; ++i) {
         const ReferenceWorld world(std::move(*makeBuiltinScene("two-rooms")), i + 1);
-        const Field field = fieldOver(world, 2, *placeGrid(world.pose.bounds, {.targetProbes = 512}));
+        const Field field = fieldOver(world, 2, *placeVolume(world.pose.bounds, {.targetProbes = 512}));
         ReferenceDesc desc = pictureOf(world, 4);
         desc.guide = &field;
         pictures[i] = world.pathTracer().render(desc)->picture.color.pixels;
@@ -184,14 +184,14 @@ TEST(Guided, sameBitsForOneAndTwoThreads) {
 /// A field that was never updated, and one whose grid is somewhere else, are bad guides and no danger.
 TEST(Guided, aBlackOrMisplacedFieldIsHarmless) {
     const ReferenceWorld world(std::move(*makeBuiltinScene("two-rooms")), 2);
-    const GridDesc placed = *placeGrid(world.pose.bounds, {.targetProbes = 512});
-    GridDesc elsewhere = placed;
+    const VolumeDesc placed = *placeVolume(world.pose.bounds, {.targetProbes = 512});
+    VolumeDesc elsewhere = placed;
     elsewhere.origin += glm::vec3(1000.0f);
     const PathTracer tracer = world.pathTracer();
     ReferenceDesc desc = pictureOf(world, 64);
     const auto plain = tracer.render(desc);
     desc.seed = 2;
-    for (const GridDesc& grid : {placed, elsewhere}) {
+    for (const VolumeDesc& grid : {placed, elsewhere}) {
         const Field field = fieldOver(world, grid.origin == placed.origin ? 0 : 2, grid);
         desc.guide = &field;
         const auto guided = tracer.render(desc);
@@ -209,7 +209,7 @@ TEST(Guided, aFieldOfOtherLightIsHarmless) {
     other.lights.push_back(world.lighting.lights.front());
     other.lights.front().direction = {0, 1, 0};
     Field field = std::move(*Field::create(
-        world.context, {.grid = *placeGrid(world.pose.bounds, {.targetProbes = 1024}), .raysPerProbe = 64}));
+        world.context, {.volumes = {*placeVolume(world.pose.bounds, {.targetProbes = 1024})}, .raysPerProbe = 64}));
     for (int i = 0; i < 3; ++i) ASSERT_TRUE(field.update(*world.tracer, other));
     const PathTracer tracer = world.pathTracer();
     ReferenceDesc desc = pictureOf(world, 64);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "render/quad_scene.h"
+#include "support/field_setup.h"
 
 namespace probegi::test {
 namespace {
@@ -36,10 +37,10 @@ PictureDesc cornerDesc() {
 }
 
 Field litField(const QuadScene::Ready& scene, const Lighting& lighting) {
-    FieldDesc desc;
-    desc.grid = {{-3, -1, -3}, glm::vec3(1), {7, 5, 7}};
+    FieldSetup desc;
+    desc.volumes = {{{-3, -1, -3}, glm::vec3(1), {7, 5, 7}}};
     desc.raysPerProbe = 64;
-    Field field = Field::create(scene.context, desc).value();
+    Field field = Field::create(scene.context, desc, desc).value();
     for (int frame = 0; frame < 3; ++frame) EXPECT_TRUE(field.update(*scene.tracer, lighting));
     return field;
 }

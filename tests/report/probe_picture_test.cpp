@@ -28,7 +28,7 @@ protected:
         picture.color = HdrImage(65, 65, glm::vec3(0.2f));
         picture.depth = HdrImage(65, 65, glm::vec3(wallDistance));
         PlacedCamera camera = lookAt({0, 0, 5}, {0, 0, 0}, 0.5f);
-        const GridDesc grid{{0, 0, 0}, glm::vec3(2), {1, 1, 1}};
+        const VolumeDesc grid{{0, 0, 0}, glm::vec3(2), {1, 1, 1}};
         return drawProbes(picture, 1, camera, grid, std::span(&state, 1));
     }
     /// Pixels that are not as in the corner, where no probe is.

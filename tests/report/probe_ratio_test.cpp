@@ -34,7 +34,7 @@ TEST(ProbeTruth, closedFurnaceIsKnown) {
     const auto pathTracer = PathTracer::create(*context, *scene, pose, **tracer, {});
     ASSERT_TRUE(pathTracer);
     const glm::vec3 size = pose.bounds.size();
-    const GridDesc grid{pose.bounds.lower - 0.25f * size, size * 0.5f, {4, 4, 4}};
+    const VolumeDesc grid{pose.bounds.lower - 0.25f * size, size * 0.5f, {4, 4, 4}};
     const auto truth = traceProbeTruth(**tracer, *pathTracer, grid, 64, 256, true);
     ASSERT_TRUE(truth) << truth.error().message;
     EXPECT_EQ(truth->probes.size(), 8u) << "two by two by two stand inside";

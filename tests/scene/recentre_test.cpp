@@ -34,7 +34,7 @@ Scene sceneAt(glm::vec3 at, bool byVertices = false) {
     camera.camera = 0;
     camera.translation = at + glm::vec3(0, 0, 4);
     scene.addNode(camera);
-    scene.grid = GridDesc{at, glm::vec3(0.5f), glm::ivec3(4)};
+    scene.grid = VolumeDesc{at, glm::vec3(0.5f), glm::ivec3(4)};
     return scene;
 }
 

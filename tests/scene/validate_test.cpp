@@ -38,7 +38,7 @@ Scene fullScene() {
     s.animations.push_back(channel);
     s.sky.radiance = {1, 1, 1};
     s.sky.image = HdrImage(2, 1, {1, 1, 1});
-    s.grid = GridDesc{};
+    s.grid = VolumeDesc{};
     return s;
 }
 

@@ -8,6 +8,7 @@
 
 #include "io/image_codec.h"
 #include "probegi/probegi.h"
+#include "support/field_setup.h"
 #include "support/tracers.h"
 
 namespace probegi::test {
@@ -15,7 +16,7 @@ namespace probegi::test {
 /// Where passes run. A new backend is one line in backends(), and all tests of tests/backend run on it.
 struct Backend {
     const char* name;
-    Result<Field> (*makeField)(const Context&, const FieldDesc&);
+    Result<Field> (*makeField)(const Context&, const FieldSetup&);
     Result<std::unique_ptr<Tracer>> (*makeTracer)(const Context&, const Scene&, const ScenePose&);
     Result<RenderedPicture> (*renderPicture)(const Context&, const Tracer&, const Lighting&, const Field*,
                                              const PictureDesc&);
@@ -31,24 +32,30 @@ inline Result<std::vector<std::uint8_t>> toneMapOnCpu(const HdrImage& image, con
 }
 
 /// The reference of all others.
-inline constexpr Backend kCpu{"cpu", Field::create, makeEmbreeTracer, renderPicture, toneMapOnCpu, [] { return true; }};
+inline const Backend kCpu{"cpu",
+                          [](const Context& context, const FieldSetup& setup) { return setup.make(context); },
+                          makeEmbreeTracer,
+                          renderPicture,
+                          toneMapOnCpu,
+                          [] { return true; }};
 
 #ifdef PROBEGI_TEST_VULKAN
 /// The Vulkan backend with one of its tracers.
 template <vulkan::TracerKind kind>
 Backend vulkanBackend(const char* name, bool (*possible)()) {
-    return {
-        name,
-        [](const Context& context, const FieldDesc& desc) { return vulkan::makeField(context, testDevice(), desc); },
-        makeVulkanTracer<kind>,
-        [](const Context& context, const Tracer& tracer, const Lighting& lighting, const Field* field,
-           const PictureDesc& desc) {
-            return vulkan::renderPicture(context, testDevice(), tracer, lighting, field, desc);
-        },
-        [](const HdrImage& image, const ToneMap& toneMap) {
-            return vulkan::toneMapImage(testDevice(), image, toneMap);
-        },
-        possible};
+    return {name,
+            [](const Context& context, const FieldSetup& setup) {
+                return vulkan::makeField(context, testDevice(), setup, setup);
+            },
+            makeVulkanTracer<kind>,
+            [](const Context& context, const Tracer& tracer, const Lighting& lighting, const Field* field,
+               const PictureDesc& desc) {
+                return vulkan::renderPicture(context, testDevice(), tracer, lighting, field, desc);
+            },
+            [](const HdrImage& image, const ToneMap& toneMap) {
+                return vulkan::toneMapImage(testDevice(), image, toneMap);
+            },
+            possible};
 }
 #endif
 

@@ -176,14 +176,14 @@ TEST_F(VulkanAdopt, worksWithoutDebugUtils) {
     Engine engine({.debugUtils = false});
     const auto device = vulkan::Device::adopt(log, engine.adoptDesc());
     ASSERT_TRUE(device);
-    auto volume = vulkan::ProbeVolume::create(*device, world.desc);
+    auto volume = vulkan::GpuField::create(*device, world.desc);
     ASSERT_TRUE(volume);
     const EngineBuffer rays = engine.makeBuffer(18 * 16 * 16);
     engine.run([&](VkCommandBuffer commands) {
         volume->recordClear(commands).value();
         EXPECT_TRUE(volume->recordUpdate(commands, rays.range()));
     });
-    EXPECT_EQ(volume->frame(), 1);
+    EXPECT_EQ(volume->control().frame(), 1);
 }
 
 TEST_F(VulkanAdopt, debugUtilsThatWereClaimedButAreNotThereDoNotCrash) {
@@ -195,7 +195,7 @@ TEST_F(VulkanAdopt, debugUtilsThatWereClaimedButAreNotThereDoNotCrash) {
     hooks().hidden = "DebugUtils";
     const auto device = vulkan::Device::adopt(log, desc);
     ASSERT_TRUE(device);
-    EXPECT_TRUE(vulkan::ProbeVolume::create(*device, world.desc));
+    EXPECT_TRUE(vulkan::GpuField::create(*device, world.desc));
 }
 
 TEST_F(VulkanAdopt, whatSubmitsIsRefusedWithASentence) {
@@ -208,7 +208,7 @@ TEST_F(VulkanAdopt, whatSubmitsIsRefusedWithASentence) {
         EXPECT_NE(result.error().message.find("engine's device"), std::string::npos) << result.error().message;
     };
     refused(vulkan::makeTracer(log, *device, world.scene, world.pose));
-    refused(vulkan::makeField(log, *device, world.desc));
+    refused(vulkan::makeField(log, *device, world.desc, world.desc));
     HdrImage image(2, 2);
     refused(vulkan::toneMapImage(*device, image, {}));
     const auto own = vulkan::Device::open(log);
@@ -229,7 +229,7 @@ TEST_F(VulkanAdopt, allMemoryGoesThroughTheEnginesAllocator) {
         ASSERT_TRUE(device);
         auto scene = vulkan::GpuScene::create(log, *device, world.scene, world.pose);
         auto lighting = vulkan::GpuLighting::create(*device, world.lighting);
-        auto volume = vulkan::ProbeVolume::create(*device, world.desc);
+        auto volume = vulkan::GpuField::create(*device, world.desc);
         ASSERT_TRUE(scene && lighting && volume);
         engine.run([&](VkCommandBuffer commands) {
             scene->recordUpload(commands).value();
@@ -260,7 +260,7 @@ TEST_F(VulkanAdopt, anAllocatorThatFailsIsAResultAndLeaksNothing) {
         if (!scene) return scene.error();
         auto lighting = vulkan::GpuLighting::create(*device, world.lighting);
         if (!lighting) return lighting.error();
-        auto volume = vulkan::ProbeVolume::create(*device, world.desc);
+        auto volume = vulkan::GpuField::create(*device, world.desc);
         if (!volume) return volume.error();
         Result<void> updated;
         engine.run([&](VkCommandBuffer commands) {

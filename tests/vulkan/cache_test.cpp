@@ -55,7 +55,7 @@ protected:
         work(*device);
     }
     void work(const vulkan::Device& device) const {
-        auto field = vulkan::makeField(log, device, world.desc);
+        auto field = vulkan::makeField(log, device, world.desc, world.desc);
         ASSERT_TRUE(field) << field.error().message;
         ASSERT_TRUE(field->update(std::vector<RayDatum>(18 * 16)));
         EXPECT_TRUE(finite(field->irradiance(world.query())));
@@ -189,7 +189,7 @@ TEST_F(VulkanCache, devicesThatWriteAtOnceLeaveOneGoodFile) {
             for (int round = 0; round < 3; ++round) {
                 const auto device = vulkan::Device::open(silent, desc);
                 ASSERT_TRUE(device);
-                auto field = vulkan::makeField(silent, *device, world.desc);
+                auto field = vulkan::makeField(silent, *device, world.desc, world.desc);
                 ASSERT_TRUE(field && field->update(std::vector<RayDatum>(18 * 16)));
                 EXPECT_TRUE(device->savePipelines());
             }

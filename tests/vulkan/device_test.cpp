@@ -183,7 +183,7 @@ TEST_F(VulkanDevice, debugFunctionsThatAreNotThereAreNotCalled) {
     const auto device = open("");
     ASSERT_TRUE(device) << device.error().message;
     const SmallWorld world;
-    EXPECT_TRUE(vulkan::makeField(log, *device, world.desc));
+    EXPECT_TRUE(vulkan::makeField(log, *device, world.desc, world.desc));
 }
 
 TEST_F(VulkanDevice, rayQueryIsOnlyThereWhereItIsWanted) {
@@ -206,7 +206,7 @@ TEST_F(VulkanDevice, aFamilyWithoutTimestampsHasNoTimesAndNoError) {
     const auto device = open("");
     ASSERT_TRUE(device);
     const SmallWorld world;
-    auto field = vulkan::makeField(log, *device, world.desc);
+    auto field = vulkan::makeField(log, *device, world.desc, world.desc);
     ASSERT_TRUE(field);
     const std::vector<RayDatum> rays(18 * 16);
     ASSERT_TRUE(field->update(rays));
@@ -217,7 +217,7 @@ TEST_F(VulkanDevice, whatIsMadeOnADeviceKeepsItAlive) {
     const SmallWorld world;
     std::optional<vulkan::Device> device = *open("");
     auto tracer = *vulkan::makeTracer(log, *device, world.scene, world.pose);
-    auto field = *vulkan::makeField(log, *device, world.desc);
+    auto field = *vulkan::makeField(log, *device, world.desc, world.desc);
     auto profiler = *vulkan::Profiler::create(*device);
     device.reset();
     EXPECT_TRUE(field.update(*tracer, world.lighting));

@@ -1,5 +1,6 @@
 // What goes wrong below the library: lost devices, no memory, refused pipelines. Always a Result, never a crash, never
 // a leak, and the CPU backend goes on.
+#include "support/field_setup.h"
 #include "vulkan/hooks.h"
 #include "vulkan/log_book.h"
 #include "vulkan/small_world.h"
@@ -59,7 +60,7 @@ Result<void> only(const Result<T>& result) {
 void expectCpuWorks(const Context& context, const SmallWorld& world) {
     const auto tracer = makeEmbreeTracer(context, world.scene, world.pose);
     ASSERT_TRUE(tracer);
-    auto field = Field::create(context, world.desc);
+    auto field = Field::create(context, world.desc, world.desc);
     ASSERT_TRUE(field);
     ASSERT_TRUE(field->update(**tracer, world.lighting));
     EXPECT_TRUE(finite(field->irradiance(world.query())));
@@ -96,7 +97,7 @@ TEST_F(VulkanFaults, whatTheCpuDoesWithRaysOfALostDeviceFails) {
         Lighting lighting = world.lighting;
         if (lamps == std::string_view("sun"))
             lighting.lights.push_back({.direction = {0, -1, 0}, .intensity = {1, 1, 1}});
-        auto field = Field::create(log, world.desc);
+        auto field = Field::create(log, world.desc, world.desc);
         ASSERT_TRUE(field);
         ASSERT_TRUE(field->update(**tracer, lighting));
         const glm::vec3 before = field->irradiance(world.query());
@@ -107,7 +108,7 @@ TEST_F(VulkanFaults, whatTheCpuDoesWithRaysOfALostDeviceFails) {
         const auto updated = field->update(**tracer, lighting);
         ASSERT_FALSE(updated);
         expectLost(updated.error());
-        EXPECT_EQ(field->frame(), 1);
+        EXPECT_EQ(field->control().frame(), 1);
         EXPECT_EQ(field->irradiance(world.query()), before);
         const auto converged = field->converge(**tracer, lighting);
         ASSERT_FALSE(converged);
@@ -138,7 +139,7 @@ TEST_F(VulkanFaults, aLostDeviceStaysLostAndNothingCrashes) {
             const vulkan::Device other = open();
             const auto tracer = vulkan::makeTracer(log, other, world.scene, world.pose, {.tracer = kind});
             ASSERT_TRUE(tracer) << tracer.error().message;
-            auto field = vulkan::makeField(log, other, world.desc);
+            auto field = vulkan::makeField(log, other, world.desc, world.desc);
             ASSERT_TRUE(field);
             ASSERT_TRUE(field->update(**tracer, world.lighting));
             EXPECT_TRUE(finite(field->irradiance(world.query())));
@@ -170,21 +171,21 @@ TEST_F(VulkanFaults, aLostDeviceStaysLostAndNothingCrashes) {
             const auto picture = vulkan::renderPicture(log, other, **tracer, world.lighting, &*field, world.picture());
             ASSERT_FALSE(picture);
             expectLost(picture.error());
-            const auto another = vulkan::makeField(log, other, world.desc);
+            const auto another = vulkan::makeField(log, other, world.desc, world.desc);
             ASSERT_FALSE(another);
             expectLost(another.error());
             EXPECT_EQ(hooks().submits, submits);
             expectCpuWorks(log, world);
         }
         // Another device of the same process does not notice.
-        EXPECT_TRUE(vulkan::makeField(log, device, world.desc));
+        EXPECT_TRUE(vulkan::makeField(log, device, world.desc, world.desc));
     }
 }
 
 TEST_F(VulkanFaults, aWaitThatFailsForLackOfMemoryIsALostDevice) {
     const vulkan::Device device = open();
     hooks().failCall(1, VK_ERROR_OUT_OF_HOST_MEMORY, "vkWaitForFences");
-    const auto field = vulkan::makeField(log, device, world.desc);
+    const auto field = vulkan::makeField(log, device, world.desc, world.desc);
     ASSERT_FALSE(field);
     expectLost(field.error());
 }
@@ -192,10 +193,10 @@ TEST_F(VulkanFaults, aWaitThatFailsForLackOfMemoryIsALostDevice) {
 TEST_F(VulkanFaults, aSubmitWithoutMemoryFailsAndTheNextWorks) {
     const vulkan::Device device = open();
     hooks().failCall(1, VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkQueueSubmit");
-    const auto refused = vulkan::makeField(log, device, world.desc);
+    const auto refused = vulkan::makeField(log, device, world.desc, world.desc);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::outOfMemory);
-    auto field = vulkan::makeField(log, device, world.desc);
+    auto field = vulkan::makeField(log, device, world.desc, world.desc);
     ASSERT_TRUE(field) << field.error().message;
     EXPECT_TRUE(finite(field->irradiance(world.query())));
 }
@@ -218,9 +219,9 @@ TEST_F(VulkanFaults, aFieldSurvivesEveryRefusedAllocation) {
     const auto tracer = vulkan::makeTracer(log, device, world.scene, world.pose);
     ASSERT_TRUE(tracer);
     // Compiles what is compiled once, so that objects can be counted.
-    ASSERT_TRUE(vulkan::makeField(log, device, world.desc)->update(**tracer, world.lighting));
+    ASSERT_TRUE(vulkan::makeField(log, device, world.desc, world.desc)->update(**tracer, world.lighting));
     const auto work = [&]() -> Result<void> {
-        auto field = vulkan::makeField(log, device, world.desc);
+        auto field = vulkan::makeField(log, device, world.desc, world.desc);
         if (!field) return field.error();
         if (auto ok = field->update(**tracer, world.lighting); !ok) return only(ok);
         const FieldQuery query = world.query();
@@ -237,14 +238,14 @@ TEST_F(VulkanFaults, aFieldThatRanOutOfMemoryWorksOnceThereIsSome) {
     const vulkan::Device device = open();
     const auto tracer = vulkan::makeTracer(log, device, world.scene, world.pose);
     ASSERT_TRUE(tracer);
-    auto reference = vulkan::makeField(log, device, world.desc);
+    auto reference = vulkan::makeField(log, device, world.desc, world.desc);
     ASSERT_TRUE(reference->update(**tracer, world.lighting));
     for (int n = 1; n < 20; ++n) {
-        auto field = vulkan::makeField(log, device, world.desc);
+        auto field = vulkan::makeField(log, device, world.desc, world.desc);
         ASSERT_TRUE(field);
         hooks().failCall(n, VK_ERROR_OUT_OF_DEVICE_MEMORY);
         if (!field->update(**tracer, world.lighting)) {
-            EXPECT_EQ(field->frame(), 0);
+            EXPECT_EQ(field->control().frame(), 0);
             hooks().failCall(0, VK_SUCCESS);
             ASSERT_TRUE(field->update(**tracer, world.lighting));
         }
@@ -257,7 +258,7 @@ TEST_F(VulkanFaults, aFieldThatRanOutOfMemoryWorksOnceThereIsSome) {
 TEST_F(VulkanFaults, aPictureSurvivesEveryRefusedAllocation) {
     const vulkan::Device device = open();
     const auto tracer = vulkan::makeTracer(log, device, world.scene, world.pose);
-    auto field = vulkan::makeField(log, device, world.desc);
+    auto field = vulkan::makeField(log, device, world.desc, world.desc);
     ASSERT_TRUE(tracer && field);
     const auto work = [&] {
         return only(vulkan::renderPicture(log, device, **tracer, world.lighting, &*field, world.picture()));
@@ -286,7 +287,7 @@ TEST_F(VulkanFaults, pipelinesThatDoNotCompileAreErrorsAndAreTriedAgain) {
     // Each attempt compiles one pipeline more than the one before.
     int refusals = 0;
     for (; refusals < 20; ++refusals) {
-        auto field = vulkan::makeField(log, device, world.desc);
+        auto field = vulkan::makeField(log, device, world.desc, world.desc);
         ASSERT_TRUE(field);
         hooks().failCall(refusals % 2 + 1, VK_ERROR_UNKNOWN, "vkCreateComputePipelines");
         const auto done = field->update(**tracer, world.lighting);
@@ -300,7 +301,7 @@ TEST_F(VulkanFaults, pipelinesThatDoNotCompileAreErrorsAndAreTriedAgain) {
     }
     EXPECT_GE(refusals, 3);
     hooks().failCall(1, VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkCreateComputePipelines");
-    auto field = vulkan::makeField(log, device, world.desc);
+    auto field = vulkan::makeField(log, device, world.desc, world.desc);
     EXPECT_TRUE(std::isnan(field->irradiance(world.query()).x));
     hooks().failCall(0, VK_SUCCESS);
     EXPECT_TRUE(finite(field->irradiance(world.query())));
@@ -309,13 +310,13 @@ TEST_F(VulkanFaults, pipelinesThatDoNotCompileAreErrorsAndAreTriedAgain) {
 TEST_F(VulkanFaults, theGuardOfAFailedQueryIsNotForgotten) {
     const vulkan::Device device = open();
     const auto tracer = vulkan::makeTracer(log, device, world.scene, world.pose);
-    auto field = vulkan::makeField(log, device, world.desc);
-    auto other = vulkan::makeField(log, device, world.desc);
+    auto field = vulkan::makeField(log, device, world.desc, world.desc);
+    auto other = vulkan::makeField(log, device, world.desc, world.desc);
     ASSERT_TRUE(tracer && field && other);
     ASSERT_TRUE(field->update(**tracer, world.lighting));
     ASSERT_TRUE(other->update(**tracer, world.lighting));
-    field->setGuard(LeakGuard::none);
-    other->setGuard(LeakGuard::none);
+    changeSettings(*field, [&](FieldSettings& s) { s.guard = LeakGuard::none; });
+    changeSettings(*other, [&](FieldSettings& s) { s.guard = LeakGuard::none; });
     // The first query compiles its pass.
     hooks().failCall(1, VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkCreateComputePipelines");
     EXPECT_TRUE(std::isnan(field->irradiance(world.query()).x));

@@ -1,4 +1,5 @@
 // What is made and destroyed at run time leaves nothing behind, and says truly what it holds.
+#include "support/field_setup.h"
 #include "vulkan/hooks.h"
 #include "vulkan/log_book.h"
 #include "vulkan/small_world.h"
@@ -49,9 +50,9 @@ protected:
 TEST_F(VulkanLifetime, aThousandVolumesLeaveNothing) {
     const vulkan::Device device = open();
     expectNoGrowth(1000, [&] {
-        auto volume = vulkan::ProbeVolume::create(device, world.desc);
+        auto volume = vulkan::GpuField::create(device, world.desc, world.desc);
         ASSERT_TRUE(volume) << volume.error().message;
-        const vulkan::ProbeVolume moved = std::move(*volume);
+        const vulkan::GpuField moved = std::move(*volume);
     });
 }
 
@@ -67,12 +68,12 @@ TEST_F(VulkanLifetime, scenesLightsAndFieldsLeaveNothing) {
     const auto tracer = vulkan::makeTracer(log, device, world.scene, world.pose);
     ASSERT_TRUE(tracer);
     expectNoGrowth(100, [&] {
-        auto field = vulkan::makeField(log, device, world.desc);
+        auto field = vulkan::makeField(log, device, world.desc, world.desc);
         ASSERT_TRUE(field && field->update(**tracer, world.lighting));
         EXPECT_TRUE(finite(field->irradiance(world.query())));
         EXPECT_TRUE(finite(field->probeIrradiance(0, {0, 1, 0})));
     });
-    auto field = vulkan::makeField(log, device, world.desc);
+    auto field = vulkan::makeField(log, device, world.desc, world.desc);
     expectNoGrowth(20, [&] {
         ASSERT_TRUE(vulkan::renderPicture(log, device, **tracer, world.lighting, &*field, world.picture()));
     });
@@ -80,12 +81,12 @@ TEST_F(VulkanLifetime, scenesLightsAndFieldsLeaveNothing) {
 
 TEST_F(VulkanLifetime, assignmentFreesWhatWasThere) {
     const vulkan::Device device = open();
-    auto volume = *vulkan::ProbeVolume::create(device, world.desc);
+    auto volume = *vulkan::GpuField::create(device, world.desc, world.desc);
     auto scene = *vulkan::GpuScene::create(log, device, world.scene, world.pose);
     auto lighting = *vulkan::GpuLighting::create(device, world.lighting);
     auto profiler = *vulkan::Profiler::create(device);
     expectNoGrowth(10, [&] {
-        volume = *vulkan::ProbeVolume::create(device, world.desc);
+        volume = *vulkan::GpuField::create(device, world.desc, world.desc);
         scene = *vulkan::GpuScene::create(log, device, world.scene, world.pose);
         lighting = *vulkan::GpuLighting::create(device, world.lighting);
         profiler = *vulkan::Profiler::create(device);
@@ -95,20 +96,20 @@ TEST_F(VulkanLifetime, assignmentFreesWhatWasThere) {
 TEST_F(VulkanLifetime, devicesLeaveNothing) {
     expectNoGrowth(5, [&] {
         const vulkan::Device device = open();
-        ASSERT_TRUE(vulkan::makeField(log, device, world.desc));
+        ASSERT_TRUE(vulkan::makeField(log, device, world.desc, world.desc));
     });
     EXPECT_EQ(hooks().liveObjects(), 0) << hooks().liveText();
 }
 
 TEST_F(VulkanLifetime, aVolumeTellsItsBytes) {
     const vulkan::Device device = open();
-    FieldDesc desc = world.desc;
-    desc.grid.counts = {16, 12, 16};
+    FieldSetup desc = world.desc;
+    desc.volumes[0].counts = {16, 12, 16};
     desc.irradianceTexels = 8;
     desc.visibilityTexels = 16;
     desc.raysPerProbe = 64;
     const VkDeviceSize before = hooks().allocatedBytes();
-    const auto volume = vulkan::ProbeVolume::create(device, desc);
+    const auto volume = vulkan::GpuField::create(device, desc, desc);
     ASSERT_TRUE(volume);
     const FieldMemory memory = volume->memory();
     expectBytes(memory.persistentBytes() + memory.scratchBytes, hooks().allocatedBytes() - before, 8);

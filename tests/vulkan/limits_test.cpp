@@ -1,6 +1,7 @@
 // Grids, maps and ray counts at the ends of their ranges.
 #include <random>
 
+#include "support/field_setup.h"
 #include "support/vulkan_device.h"
 #include "vulkan/hooks.h"
 #include "vulkan/log_book.h"
@@ -10,9 +11,9 @@ namespace probegi::test {
 
 namespace {
 
-FieldDesc smallest(glm::ivec3 counts) {
-    FieldDesc desc;
-    desc.grid.counts = counts;
+FieldSetup smallest(glm::ivec3 counts) {
+    FieldSetup desc;
+    desc.volumes[0].counts = counts;
     desc.raysPerProbe = 8;
     desc.irradianceTexels = 4;
     desc.visibilityTexels = 4;
@@ -22,16 +23,16 @@ FieldDesc smallest(glm::ivec3 counts) {
 std::vector<RayDatum> randomRays(const FieldDesc& desc) {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
-    std::vector<RayDatum> rays(std::size_t(probeCount(desc.grid)) * std::size_t(desc.raysPerProbe));
+    std::vector<RayDatum> rays(std::size_t(probeCount(desc)) * std::size_t(desc.raysPerProbe));
     for (RayDatum& d : rays) d = {{unit(random), unit(random), 2.0f * unit(random)}, 0.1f + 2.0f * unit(random)};
     return rays;
 }
 
 // The same rays on both backends give the same probes.
 void expectSameAsCpu(const FieldDesc& desc, std::span<const int> probes) {
-    auto made = vulkan::makeField(testContext(), testDevice(), desc);
+    auto made = vulkan::makeField(testContext(), testDevice(), desc, desc);
     ASSERT_TRUE(made) << made.error().message;
-    Field onCpu = *Field::create(testContext(), desc);
+    Field onCpu = *Field::create(testContext(), desc, desc);
     const std::vector<RayDatum> rays = randomRays(desc);
     for (int i = 0; i < 2; ++i) {
         const auto updated = made->update(rays);
@@ -46,7 +47,8 @@ void expectSameAsCpu(const FieldDesc& desc, std::span<const int> probes) {
             EXPECT_NEAR(m.x, same.x, 2e-3f * same.x + 1e-4f) << probe;
             EXPECT_NEAR(m.y, same.y, 4e-3f * same.y + 1e-4f) << probe;
         }
-    const FieldQuery query{probePosition(desc.grid, probes.back()) - 0.3f * desc.grid.spacing, {0, 1, 0}, {0, 1, 0}};
+    const FieldQuery query{
+        probePosition(desc.volumes[0], probes.back()) - 0.3f * desc.volumes[0].spacing, {0, 1, 0}, {0, 1, 0}};
     const glm::vec3 e = made->irradiance(query), wanted = onCpu.irradiance(query);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(e[c], wanted[c], 5e-3f * wanted[c] + 1e-3f);
 }
@@ -56,7 +58,7 @@ void expectSameAsCpu(const FieldDesc& desc, std::span<const int> probes) {
 TEST(VulkanLimits, mapsOfEverySizeAgreeWithTheCpu) {
     for (const auto& [irradiance, visibility] : {std::pair{4, 4}, {6, 10}, {10, 6}, {18, 30}, {32, 64}}) {
         SCOPED_TRACE(irradiance);
-        FieldDesc desc = smallest({3, 2, 4});
+        FieldSetup desc = smallest({3, 2, 4});
         desc.irradianceTexels = irradiance;
         desc.visibilityTexels = visibility;
         desc.raysPerProbe = 33;
@@ -68,7 +70,7 @@ TEST(VulkanLimits, mapsOfEverySizeAgreeWithTheCpu) {
 TEST(VulkanLimits, fewAndManyRaysAgreeWithTheCpu) {
     for (const int rays : {8, 9, 4095, 4096}) {
         SCOPED_TRACE(rays);
-        FieldDesc desc = smallest({2, 2, 2});
+        FieldSetup desc = smallest({2, 2, 2});
         desc.raysPerProbe = rays;
         desc.irradianceTexels = 8;
         desc.visibilityTexels = 16;
@@ -79,8 +81,8 @@ TEST(VulkanLimits, fewAndManyRaysAgreeWithTheCpu) {
 
 // More groups of four probes than one axis of a dispatch may have.
 TEST(VulkanLimits, aQuarterOfAMillionProbesAgreeWithTheCpu) {
-    const FieldDesc desc = smallest({96, 96, 33});
-    const int last = probeCount(desc.grid) - 1;
+    const FieldSetup desc = smallest({96, 96, 33});
+    const int last = probeCount(desc) - 1;
     ASSERT_GT(last, 4 * 65535);
     const int probes[] = {0, 131071, 131072, 262139, 262144, last - 1, last};
     expectSameAsCpu(desc, probes);
@@ -98,15 +100,15 @@ TEST(VulkanLimits, axesBeyondTheDevicesImagesAreRefused) {
         open.getInstanceProcAddr = hookedLoader;
         const vulkan::Device device = *vulkan::Device::open(log, open);
         const auto refused = [&](glm::ivec3 counts, const char* named) {
-            const auto volume = vulkan::ProbeVolume::create(device, smallest(counts));
+            const auto volume = vulkan::GpuField::create(device, smallest(counts));
             ASSERT_FALSE(volume);
             EXPECT_EQ(volume.error().code, ErrorCode::unsupported);
             EXPECT_NE(volume.error().message.find(named), std::string::npos) << volume.error().message;
         };
         // Tiles of 6 texels: 682 fit.
-        EXPECT_TRUE(vulkan::ProbeVolume::create(device, smallest({682, 2, 2})));
-        EXPECT_TRUE(vulkan::ProbeVolume::create(device, smallest({2, 682, 2})));
-        EXPECT_TRUE(vulkan::ProbeVolume::create(device, smallest({2, 2, 256})));
+        EXPECT_TRUE(vulkan::GpuField::create(device, smallest({682, 2, 2})));
+        EXPECT_TRUE(vulkan::GpuField::create(device, smallest({2, 682, 2})));
+        EXPECT_TRUE(vulkan::GpuField::create(device, smallest({2, 2, 256})));
         refused({683, 2, 2}, "682");
         refused({2, 683, 2}, "682");
         refused({2, 2, 257}, "256 layers");
@@ -116,16 +118,16 @@ TEST(VulkanLimits, axesBeyondTheDevicesImagesAreRefused) {
 
 TEST(VulkanLimits, theLongestAxesWork) {
     for (const glm::ivec3 counts : {glm::ivec3(1024, 2, 2), glm::ivec3(2, 1024, 2), glm::ivec3(2, 2, 1024)}) {
-        FieldDesc desc = smallest(counts);
+        FieldSetup desc = smallest(counts);
         const int probes[] = {0, 2047, 4095};
         expectSameAsCpu(desc, probes);
     }
 }
 
 TEST(VulkanLimits, moreRaysThanCanBeNumberedAreRefused) {
-    FieldDesc desc = smallest({128, 128, 64});
+    FieldSetup desc = smallest({128, 128, 64});
     desc.raysPerProbe = 2048;
-    const auto volume = vulkan::ProbeVolume::create(testDevice(), desc);
+    const auto volume = vulkan::GpuField::create(testDevice(), desc, desc);
     ASSERT_FALSE(volume);
     EXPECT_EQ(volume.error().code, ErrorCode::unsupported);
     EXPECT_NE(volume.error().message.find("raysPerProbe"), std::string::npos) << volume.error().message;
@@ -133,11 +135,11 @@ TEST(VulkanLimits, moreRaysThanCanBeNumberedAreRefused) {
 
 // Either there is room, or a sentence; never a request that the driver must not be given.
 TEST(VulkanLimits, sixteenMillionProbesAreMadeOrRefused) {
-    FieldDesc desc = smallest({256, 256, 256});
+    FieldSetup desc = smallest({256, 256, 256});
     for (const auto& [irradiance, visibility] : {std::pair{4, 4}, {8, 16}, {32, 64}}) {
         desc.irradianceTexels = irradiance;
         desc.visibilityTexels = visibility;
-        const auto volume = vulkan::ProbeVolume::create(testDevice(), desc);
+        const auto volume = vulkan::GpuField::create(testDevice(), desc, desc);
         if (volume) continue;
         EXPECT_EQ(volume.error().code, ErrorCode::outOfMemory);
         EXPECT_NE(volume.error().message.find("fewer probes"), std::string::npos) << volume.error().message;

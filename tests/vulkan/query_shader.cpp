@@ -43,7 +43,7 @@ void QueryShader::makeSets(const EngineBuffer& questions, const EngineBuffer& an
         {0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
         {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr}};
     m_layouts[0] = makeLayout(m_device, own);
-    m_layouts[1] = makeLayout(m_device, vulkan::ProbeVolume::queryBindings(kFirstBinding, VK_SHADER_STAGE_COMPUTE_BIT));
+    m_layouts[1] = makeLayout(m_device, vulkan::GpuField::queryBindings(kFirstBinding, VK_SHADER_STAGE_COMPUTE_BIT));
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 3},
                                           {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2}};

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "kernels/abi/gpu_passes.h"
+#include "support/field_setup.h"
 #include "support/vulkan_device.h"
 #include "vulkan/device/exchange.h"
 #include "vulkan/scene/gpu_scene_impl.h"
@@ -20,7 +21,7 @@ constexpr float kOdd[] = {kNan, -kNan, kInfinity, -kInfinity, kHuge, -kHuge, 1e3
 class VulkanRays : public testing::Test {
 protected:
     static void expectFinite(const Field& field) {
-        const int probes = probeCount(field.desc().grid);
+        const int probes = probeCount(field.desc());
         for (int probe = 0; probe < probes; ++probe) {
             EXPECT_TRUE(field.probeBackfaceShare(probe) >= 0.0f && field.probeBackfaceShare(probe) <= 1.0f) << probe;
             for (const glm::vec3 direction : {glm::vec3(0, 1, 0), glm::vec3(-0.6f, 0, 0.8f), glm::vec3(0, -1, 0)}) {
@@ -108,10 +109,10 @@ int differing(std::span<const Hit> a, std::span<const Hit> b) {
 
 TEST_F(VulkanRays, oddRayDataLeavesTheAtlasesFinite) {
     for (const BackfaceRule rule : {BackfaceRule::zeroSample, BackfaceRule::excluded}) {
-        FieldDesc desc = world.desc;
+        FieldSetup desc = world.desc;
         desc.backfaceRule = rule;
-        Field field = *vulkan::makeField(testContext(), testDevice(), desc);
-        Field onCpu = *Field::create(testContext(), desc);
+        Field field = *vulkan::makeField(testContext(), testDevice(), desc, desc);
+        Field onCpu = *Field::create(testContext(), desc, desc);
         std::vector<RayDatum> rays(18 * 16);
         const std::size_t odds = std::size(kOdd);
         for (std::size_t i = 0; i < rays.size(); ++i)

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <random>
 
+#include "support/field_setup.h"
 #include "vulkan/engine.h"
 #include "vulkan/hooks.h"
 #include "vulkan/log_book.h"
@@ -13,7 +14,7 @@ namespace probegi::test {
 
 namespace {
 
-using vulkan::ProbeVolume;
+using vulkan::GpuField;
 
 class VulkanRecorded : public testing::Test {
 protected:
@@ -39,9 +40,9 @@ protected:
 
     // What the CPU makes of the same rays.
     std::vector<glm::vec3> onCpu(int updates, LeakGuard guard) const {
-        Field field = *Field::create(log, world.desc);
+        Field field = *Field::create(log, world.desc, world.desc);
         for (int i = 0; i < updates; ++i) EXPECT_TRUE(field.update(rays));
-        field.setGuard(guard);
+        changeSettings(field, [&](FieldSettings& s) { s.guard = guard; });
         std::vector<glm::vec3> e(queries.size());
         EXPECT_TRUE(field.irradiance(queries, e));
         return e;
@@ -71,7 +72,8 @@ protected:
 
 TEST_F(VulkanRecorded, updatesAndQueriesInOneCommandBuffer) {
     const vulkan::Device device = adopt();
-    ProbeVolume volume = *ProbeVolume::create(device, world.desc), other = *ProbeVolume::create(device, world.desc);
+    GpuField volume = *GpuField::create(device, world.desc, world.desc),
+             other = *GpuField::create(device, world.desc, world.desc);
     const EngineBuffer first = answers(), second = answers(), unguarded = answers(), again = answers(),
                        others = answers();
     engine.run([&](VkCommandBuffer commands) {
@@ -84,14 +86,14 @@ TEST_F(VulkanRecorded, updatesAndQueriesInOneCommandBuffer) {
             EXPECT_TRUE(other.recordUpdate(commands, rayBuffer.range()));
         }
         EXPECT_TRUE(volume.recordQuery(commands, questions.address, second.address, count()));
-        volume.setGuard(LeakGuard::none);
+        changeSettings(volume, [&](FieldSettings& s) { s.guard = LeakGuard::none; });
         EXPECT_TRUE(volume.recordQuery(commands, questions.address, unguarded.address, count()));
-        volume.setGuard(LeakGuard::moments);
+        changeSettings(volume, [&](FieldSettings& s) { s.guard = LeakGuard::moments; });
         EXPECT_TRUE(volume.recordQuery(commands, questions.address, again.address, count()));
         EXPECT_TRUE(other.recordQuery(commands, questions.address, others.address, count()));
         EXPECT_TRUE(other.recordQuery(commands, questions.address, others.address, 0));
     });
-    EXPECT_EQ(volume.frame(), 3);
+    EXPECT_EQ(volume.control().frame(), 3);
     expectEqual(first, onCpu(1, LeakGuard::moments), 2e-3f);
     expectEqual(second, onCpu(3, LeakGuard::moments), 2e-3f);
     expectEqual(unguarded, onCpu(3, LeakGuard::none), 2e-3f);
@@ -102,7 +104,7 @@ TEST_F(VulkanRecorded, updatesAndQueriesInOneCommandBuffer) {
 
 TEST_F(VulkanRecorded, updatesAndQueriesInSubmitsOfTheirOwn) {
     const vulkan::Device device = adopt();
-    ProbeVolume volume = *ProbeVolume::create(device, world.desc);
+    GpuField volume = *GpuField::create(device, world.desc, world.desc);
     const EngineBuffer result = answers();
     engine.submit([&](VkCommandBuffer commands) { volume.recordClear(commands).value(); });
     for (int i = 0; i < 3; ++i)
@@ -125,14 +127,14 @@ TEST_F(VulkanRecorded, lightsThatChangeAreThoseThatWereMade) {
     bright.sky.radiance = glm::vec3(0.4f);
     vulkan::GpuLighting changed = *vulkan::GpuLighting::create(device, dark, 2),
                         made = *vulkan::GpuLighting::create(device, bright);
-    std::vector<ProbeVolume> volumes;
-    for (int i = 0; i < 3; ++i) volumes.push_back(*ProbeVolume::create(device, world.desc));
+    std::vector<GpuField> volumes;
+    for (int i = 0; i < 3; ++i) volumes.push_back(*GpuField::create(device, world.desc, world.desc));
     const EngineBuffer before = answers(), after = answers(), wanted = answers();
     engine.run([&](VkCommandBuffer commands) {
         scene.recordUpload(commands).value();
         changed.recordUpload(commands).value();
         made.recordUpload(commands).value();
-        for (ProbeVolume& volume : volumes) volume.recordClear(commands).value();
+        for (GpuField& volume : volumes) volume.recordClear(commands).value();
         EXPECT_TRUE(volumes[0].recordUpdate(commands, scene, changed));
         EXPECT_TRUE(changed.recordUpdate(commands, bright));
         EXPECT_TRUE(volumes[1].recordUpdate(commands, scene, changed));
@@ -163,7 +165,7 @@ TEST_F(VulkanRecorded, lampsThatMoveAreLookedForWhereTheyAre) {
     vulkan::GpuLighting none = *vulkan::GpuLighting::create(device, {});
     for (const bool movable : {true, false}) {
         vulkan::GpuScene scene = *vulkan::GpuScene::create(log, device, moving, poseAt(moving), {.movable = movable});
-        ProbeVolume volume = *ProbeVolume::create(device, world.desc);
+        GpuField volume = *GpuField::create(device, world.desc, world.desc);
         const EngineBuffer result = answers();
         engine.run([&](VkCommandBuffer commands) {
             scene.recordUpload(commands).value();
@@ -175,7 +177,7 @@ TEST_F(VulkanRecorded, lampsThatMoveAreLookedForWhereTheyAre) {
         });
         // What was merged stays where it was, for looks as for rays.
         const auto tracer = *makeEmbreeTracer(log, moving, poseAt(moving, movable ? 1.0f : 0.0f));
-        Field field = *Field::create(log, world.desc);
+        Field field = *Field::create(log, world.desc, world.desc);
         EXPECT_TRUE(field.update(*tracer, Lighting{}));
         std::vector<glm::vec3> wanted(queries.size());
         EXPECT_TRUE(field.irradiance(queries, wanted));
@@ -185,7 +187,7 @@ TEST_F(VulkanRecorded, lampsThatMoveAreLookedForWhereTheyAre) {
 
 TEST_F(VulkanRecorded, theIncludeAnswersAsThePassDoes) {
     const vulkan::Device device = adopt();
-    ProbeVolume volume = *ProbeVolume::create(device, world.desc);
+    GpuField volume = *GpuField::create(device, world.desc, world.desc);
     const EngineBuffer byPass = answers(), byInclude = answers();
     QueryShader shader(engine, PROBEGI_QUERY_SPIRV, questions, byInclude);
     volume.writeQueryBindings(shader.volumeSet(), QueryShader::kFirstBinding);
@@ -204,13 +206,13 @@ TEST_F(VulkanRecorded, theIncludeAnswersAsThePassDoes) {
 // Without an update or a query of the library's in between.
 TEST_F(VulkanRecorded, theGuardReachesShadersOfTheEngine) {
     const vulkan::Device device = adopt();
-    ProbeVolume volume = *ProbeVolume::create(device, world.desc);
+    GpuField volume = *GpuField::create(device, world.desc, world.desc);
     const EngineBuffer answered = answers();
     QueryShader shader(engine, PROBEGI_QUERY_SPIRV, questions, answered);
     volume.writeQueryBindings(shader.volumeSet(), QueryShader::kFirstBinding);
     const auto askedWith = [&](LeakGuard guard, bool recorded) {
         engine.run([&](VkCommandBuffer commands) {
-            volume.setGuard(guard);
+            changeSettings(volume, [&](FieldSettings& s) { s.guard = guard; });
             if (recorded) volume.recordGuard(commands).value();
             shader.record(commands, count());
         });
@@ -229,7 +231,7 @@ TEST_F(VulkanRecorded, theGuardReachesShadersOfTheEngine) {
     EXPECT_EQ(askedWith(LeakGuard::moments, true), guarded);
     // Cleared probes keep the guard that was set.
     engine.run([&](VkCommandBuffer commands) {
-        volume.setGuard(LeakGuard::none);
+        changeSettings(volume, [&](FieldSettings& s) { s.guard = LeakGuard::none; });
         EXPECT_TRUE(volume.recordClear(commands));
         EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.range()));
         shader.record(commands, count());
@@ -239,8 +241,9 @@ TEST_F(VulkanRecorded, theGuardReachesShadersOfTheEngine) {
 
 TEST_F(VulkanRecorded, rayDataThatIsTooShortIsRefused) {
     const vulkan::Device device = adopt();
-    ProbeVolume volume = *ProbeVolume::create(device, world.desc);
-    const std::size_t fixed = std::size_t(probeCount(world.desc.grid)) * volume.fixedRayDirections().size();
+    GpuField volume = *GpuField::create(device, world.desc, world.desc);
+    const std::size_t fixed =
+        std::size_t(probeCount(world.desc.volumes[0])) * volume.control().fixedRayDirections().size();
     const EngineBuffer fixedBuffer = engine.makeBuffer(fixed * sizeof(FixedRayDatum));
     const auto shorter = [](const EngineBuffer& buffer) {
         return vulkan::BufferRange{buffer.address, buffer.bytes - 1};
@@ -257,10 +260,10 @@ TEST_F(VulkanRecorded, rayDataThatIsTooShortIsRefused) {
         expectRefused(volume.recordUpdate(commands, {rayBuffer.address + 2, rayBuffer.bytes}), "multiple of 4");
         expectRefused(volume.recordUpdate(commands, {0, rayBuffer.bytes}), "multiple of 4");
         expectRefused(volume.recordUpdate(commands, rayBuffer.range(), shorter(fixedBuffer)), "fixedRays");
-        EXPECT_EQ(volume.frame(), 0);
+        EXPECT_EQ(volume.control().frame(), 0);
         EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.range(), fixedBuffer.range()));
     });
-    EXPECT_EQ(volume.frame(), 1);
+    EXPECT_EQ(volume.control().frame(), 1);
 }
 
 TEST_F(VulkanRecorded, anUploadAfterItsStagingIsGoneIsRefused) {
@@ -283,7 +286,7 @@ TEST_F(VulkanRecorded, anUploadAfterItsStagingIsGoneIsRefused) {
 
 TEST_F(VulkanRecorded, passesAreTimed) {
     const vulkan::Device device = adopt();
-    ProbeVolume volume = *ProbeVolume::create(device, world.desc);
+    GpuField volume = *GpuField::create(device, world.desc, world.desc);
     vulkan::GpuScene scene = *vulkan::GpuScene::create(log, device, world.scene, world.pose);
     vulkan::GpuLighting lighting = *vulkan::GpuLighting::create(device, world.lighting);
     vulkan::Profiler all = *vulkan::Profiler::create(device), few = *vulkan::Profiler::create(device, 2);

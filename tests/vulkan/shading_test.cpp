@@ -51,7 +51,7 @@ TEST(VulkanShading, samplesOfAnEngineLookLikeTheCpusPicture) {
     desc.samplesPerAxis = 1;
     const auto cpuTracer = *makeEmbreeTracer(log, world.scene, world.pose);
     const std::vector<RayDatum> rays(18 * 16, RayDatum{{0.5f, 0.25f, 1.0f}, 0.6f});
-    Field cpuField = *Field::create(log, world.desc);
+    Field cpuField = *Field::create(log, world.desc, world.desc);
     ASSERT_TRUE(cpuField.update(rays));
     const Picture picture = renderPicture(log, *cpuTracer, world.lighting, &cpuField, desc)->picture;
     const std::vector<ShadingSample> samples = rasterised(*cpuTracer, desc);
@@ -60,7 +60,7 @@ TEST(VulkanShading, samplesOfAnEngineLookLikeTheCpusPicture) {
     const vulkan::Device device = *vulkan::Device::adopt(log, engine.adoptDesc());
     auto scene = *vulkan::GpuScene::create(log, device, world.scene, world.pose);
     auto lighting = *vulkan::GpuLighting::create(device, world.lighting);
-    auto volume = *vulkan::ProbeVolume::create(device, world.desc);
+    auto volume = *vulkan::GpuField::create(device, world.desc, world.desc);
     const EngineBuffer rayBuffer = engine.makeBuffer(std::span(rays));
     const EngineBuffer withField = engine.makeBuffer(std::span(samples)),
                        without = engine.makeBuffer(std::span(samples));
@@ -135,7 +135,7 @@ TEST(VulkanShading, aClearedVolumeBeginsAnew) {
     LogBook log;
     Engine engine;
     const vulkan::Device device = *vulkan::Device::adopt(log, engine.adoptDesc());
-    auto volume = *vulkan::ProbeVolume::create(device, world.desc);
+    auto volume = *vulkan::GpuField::create(device, world.desc, world.desc);
     const std::vector<RayDatum> bright(18 * 16, RayDatum{glm::vec3(9.0f), 0.6f}), dim(18 * 16, {glm::vec3(0.5f), 0.6f});
     const EngineBuffer brightRays = engine.makeBuffer(std::span(bright)), dimRays = engine.makeBuffer(std::span(dim));
     const FieldQuery query = world.query();
@@ -144,7 +144,7 @@ TEST(VulkanShading, aClearedVolumeBeginsAnew) {
         volume.recordClear(commands).value();
         for (int i = 0; i < 3; ++i) EXPECT_TRUE(volume.recordUpdate(commands, brightRays.range()));
         volume.recordClear(commands).value();
-        EXPECT_EQ(volume.frame(), 0);
+        EXPECT_EQ(volume.control().frame(), 0);
         EXPECT_TRUE(volume.recordUpdate(commands, dimRays.range()));
         EXPECT_TRUE(volume.recordQuery(commands, question.address, answer.address, 1));
     });

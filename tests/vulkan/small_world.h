@@ -4,6 +4,7 @@
 
 #include "probegi/probegi.h"
 #include "probegi/vulkan.h"
+#include "support/field_setup.h"
 
 namespace probegi::test {
 
@@ -13,9 +14,9 @@ struct SmallWorld {
         pose = poseAt(scene);
         lighting = {pose.lights, scene.sky};
         // Within the walls.
-        desc.grid.counts = {3, 2, 3};
-        desc.grid.origin = pose.bounds.lower + 0.15f * pose.bounds.size();
-        desc.grid.spacing = 0.7f * pose.bounds.size() / glm::vec3(desc.grid.counts - 1);
+        desc.volumes[0].counts = {3, 2, 3};
+        desc.volumes[0].origin = pose.bounds.lower + 0.15f * pose.bounds.size();
+        desc.volumes[0].spacing = 0.7f * pose.bounds.size() / glm::vec3(desc.volumes[0].counts - 1);
         desc.raysPerProbe = 16;
         desc.irradianceTexels = 4;
         desc.visibilityTexels = 6;
@@ -32,7 +33,7 @@ struct SmallWorld {
     Scene scene;
     ScenePose pose;
     Lighting lighting;
-    FieldDesc desc;
+    FieldSetup desc;
 };
 
 /// The kinds of tracer that a device can run.

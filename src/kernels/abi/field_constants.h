@@ -11,6 +11,10 @@ KERNELS_BEGIN
 // The most volumes of a field.
 KERNEL_CONST int kMostVolumes = 32;
 
+// The order of probegi::LeakGuard.
+KERNEL_CONST int kGuardNone = 0;
+KERNEL_CONST int kGuardMoments = 1;
+
 struct FieldConstants {
     int volumeCount;
     int guard;

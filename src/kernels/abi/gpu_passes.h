@@ -3,6 +3,7 @@
 #ifndef PROBEGI_KERNELS_GPU_PASSES_H
 #define PROBEGI_KERNELS_GPU_PASSES_H
 
+#include "kernels/abi/dispatch.h"
 #include "kernels/abi/gpu_scene.h"
 #include "kernels/blend/temporal_filter.h"
 #include "kernels/screen/pinhole.h"
@@ -44,6 +45,22 @@ struct GpuTexelRays {
     float evidence;  // visibilityEvidence(); by the paper's rules 1
 };
 
+// probegi::ProbeTask: one probe of an update.
+struct GpuTask {
+    vec3 origin;  // of its rays, metres
+    uint slot;
+    uint volume;
+};
+
+// The list of all probes (all_tasks.comp), and the work that a list is (count_tasks.comp).
+struct TasksPush {
+    uvec2 tasks;            // GpuTaskCounts, GpuTask[]
+    uint count;             // all_tasks: of probes
+    uint rays;              // a task, fixed ones included
+    uint looks;             // at emitters, a task
+    uint irradianceTexels;  // of a map, all
+};
+
 // Weights of a frame's rays for the texels of a probe (blend_weights.comp).
 struct WeightsPush {
     uvec2 directions;         // vec3[rays]
@@ -70,68 +87,61 @@ struct GpuProbeStep {
 
 // The passes around a blend with windows (probe_lag.comp, probe_windows.comp, probe_filter.comp).
 struct FilterPush {
-    uvec2 steps;       // GpuProbeStep[probe]
-    uvec2 filters;     // PackedProbeFilter[probe]
-    uvec2 changes;     // TexelChange[block of texels][probe]
-    uvec2 rayData;     // FixedRayDatum[probe][ray] or, ownRays, RayDatum[probe][ray]
+    uvec2 tasks;       // GpuTaskCounts, GpuTask[]
+    uvec2 steps;       // GpuProbeStep[slot]; no lag where a probe is no task
+    uvec2 filters;     // PackedProbeFilter[slot]
+    uvec2 changes;     // TexelChange[block of texels][task]
+    uvec2 rayData;     // FixedRayDatum[task][ray] or, ownRays, RayDatum[task][ray]
     uvec2 directions;  // vec3[ray]
     int rays;
-    int probes;
     int ownRays;          // 1: there are no fixed rays, the update's own must do
     int texels;           // of an irradiance map, all
-    float maxDistance;    // metres
     float longestWindow;  // updates; forget: the windows
     float longestVisibilityWindow;
     uint ditherSeed;
     int forget;  // 1: probe_filter.comp only writes forgottenFilter()
 };
 
-// What a work group of the blends makes.
-KERNEL_CONST int kIrradianceGroupProbes = 16;
-KERNEL_CONST int kIrradianceGroupTexels = 64;
-KERNEL_CONST int kVisibilityGroupProbes = 4;  // and all their texels
-
 // Both blends (blend_irradiance.comp, blend_visibility.comp).
 struct BlendPush {
-    uvec2 rayData;            // RayDatum[probe][ray]
-    uvec2 sides;              // ProbeSides[probe]
+    uvec2 tasks;              // GpuTaskCounts, GpuTask[]
+    uvec2 rayData;            // RayDatum[task][ray]
+    uvec2 sides;              // ProbeSides[slot]
     uvec2 irradianceWeights;  // as WeightsPush
     uvec2 visibilityRays;
     uvec2 visibilityWeights;
     int rays;
-    int probes;
-    float maxDistance;           // metres
     float irradianceHysteresis;  // alpha of eq. 1
     float visibilityHysteresis;
     float significantChange;  // Listing 3
     float newDistribution;    // Listing 3
     uint ditherSeed;
     int linear;           // 1: blendLinear
-    uvec2 emitterLights;  // EmitterLight[probe][look]
+    uvec2 emitterLights;  // EmitterLight[task][look]
     int looks;            // at emitters, a probe; 0: none
-    uvec2 steps;          // GpuProbeStep[probe]: each with its own hysteresis; 0: all with the above
-    uvec2 changes;        // out, where there are steps: TexelChange[block of texels][probe]
+    uvec2 steps;          // GpuProbeStep[slot]: each with its own hysteresis; 0: all with the above
+    uvec2 changes;        // out, where there are steps: TexelChange[block of texels][task]
 };
 
 // Ways into the open (find_solid_probes.comp).
 struct SolidPush {
-    uvec2 sides;  // ProbeSides[probe]
-    int probes;
+    uvec2 tasks;  // GpuTaskCounts, GpuTask[]
+    uvec2 sides;  // ProbeSides[slot]
 };
 
 // Probe rays (trace_probes.comp), their shading (shade_probes.comp), and looks at emitters (look_at_emitters.comp).
 struct TracePush {
-    uvec2 directions;   // vec3[rays]
-    uvec2 hits;         // Hit[ray][probe]
-    uvec2 rayData;      // RayDatum[probe][ray]
-    uvec2 lighting;     // LightingBlock
-    uvec2 fixedRays;    // FixedRayDatum[probe][ray]
-    int rays;           // that are blended
-    int fixedRayCount;  // that come after them in directions and hits
-    int probes;
+    uvec2 tasks;          // GpuTaskCounts, GpuTask[]
+    uvec2 directions;     // vec3[rays]
+    uvec2 hits;           // Hit[ray][task]
+    uvec2 rayData;        // RayDatum[task][ray]
+    uvec2 lighting;       // LightingBlock
+    uvec2 fixedRays;      // FixedRayDatum[task][ray]
+    int rays;             // that are blended
+    int fixedRayCount;    // that come after them in directions and hits
     int bounces;          // 1: the probes hold light of an earlier update
     int looks;            // at emitters, a probe; 0: none
-    uvec2 emitterLights;  // EmitterLight[probe][look]
+    uvec2 emitterLights;  // EmitterLight[task][look]
     uint emitterSeed;     // of the frame
 };
 
@@ -217,10 +227,11 @@ KERNELS_END
 #ifdef __cplusplus
 namespace probegi::kernels {
 static_assert(offsetof(SceneConstants, bvh) == 140 && sizeof(SceneConstants) == 172 && sizeof(LightingBlock) == 40);
-static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 12 && sizeof(BlendPush) == 104 &&
-              sizeof(TracePush) == 72);
+static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(BlendPush) == 104 &&
+              sizeof(TracePush) == 76);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 96);
-static_assert(sizeof(FilterPush) == 76 && sizeof(GpuProbeStep) == 80);
+static_assert(sizeof(GpuTask) == 20 && sizeof(TasksPush) == 24 && sizeof(FilterPush) == 76 &&
+              sizeof(GpuProbeStep) == 80);
 static_assert(sizeof(ToneMapPush) == 36 && sizeof(GpuSurface) == 76 && sizeof(GpuSample) == 100);
 }  // namespace probegi::kernels
 #endif

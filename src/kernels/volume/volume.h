@@ -14,11 +14,12 @@ struct Volume {
     vec3 spacing;      // metres
     int firstSlot;     // of the pool
     vec3 inverseSpacing;
-    float inverseMaxDistance;  // 1 / metres; stored distances are fractions of it
+    float inverseMaxDistance;  // 1 / metres
     ivec3 counts;
-    int turned;        // 0: along the world's axes, and `orientation` is not looked at
-    vec4 orientation;  // unit quaternion (x, y, z, w) from the volume's frame to the world
-    ivec3 phase;       // of scrolling, 0..counts-1: where cell (0, 0, 0) lies in the ring of each axis
+    int turned;         // 0: along the world's axes, and `orientation` is not looked at
+    vec4 orientation;   // unit quaternion (x, y, z, w) from the volume's frame to the world
+    ivec3 phase;        // of scrolling, 0..counts-1: where cell (0, 0, 0) lies in the ring of each axis
+    float maxDistance;  // metres; farthest distance that visibility distinguishes
 };
 
 // The ring's place of a cell on one axis, 0 <= cell < count.
@@ -62,7 +63,7 @@ KERNELS_END
 #ifdef __cplusplus
 namespace probegi::kernels {
 static_assert(offsetof(Volume, spacing) == 16 && offsetof(Volume, counts) == 48 && offsetof(Volume, phase) == 80 &&
-              sizeof(Volume) == 92);
+              sizeof(Volume) == 96);
 }  // namespace probegi::kernels
 #endif
 

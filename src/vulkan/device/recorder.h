@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "kernels/abi/dispatch.h"
 #include "vulkan/device/address.h"
 #include "vulkan/device/device_impl.h"
 #include "vulkan/device/memory.h"
@@ -33,16 +34,22 @@ public:
     /// Runs a pass over `count` threads. More groups than one axis may have are spread over
     /// two: shaders find their number with globalIndex() of shaders/common.glsl.
     void dispatchOver(const std::string& shader, std::uint64_t count) const {
-        const std::uint64_t groups = (count + kGroupSize - 1) / kGroupSize;
-        const std::uint64_t rows = (groups + kGroupsPerRow - 1) / kGroupsPerRow;
-        if (groups) dispatch(shader, std::uint32_t(rows > 1 ? kGroupsPerRow : groups), std::uint32_t(rows));
+        const kernels::uvec3 groups = kernels::threadGroups(std::uint32_t(count));
+        if (count) dispatch(shader, groups.x, groups.y);
     }
     /// Runs a pass over `blocks` times `columns` groups: x and z hold a group's block, y its column. Devices need not
     /// take more than 65,535 groups along an axis, and blocks of probes may be more.
     void dispatchOver(const std::string& shader, std::uint32_t blocks, std::uint32_t columns,
                       std::span<const std::uint32_t> constants = {}) const {
-        const std::uint32_t rows = (blocks + kGroupsPerRow - 1) / kGroupsPerRow;
-        dispatch(shader, rows > 1 ? kGroupsPerRow : blocks, columns, rows, constants);
+        const kernels::uvec3 groups = kernels::blockGroups(blocks, columns);
+        dispatch(shader, groups.x, groups.y, groups.z, constants);
+    }
+    /// Runs a pass over as many groups as three words in GPU memory say, `offset` bytes into the buffer.
+    void dispatchIndirect(const std::string& shader, const Buffer& buffer, std::size_t offset,
+                          std::span<const std::uint32_t> constants = {}) const {
+        m_commands.bindPipeline(vk::PipelineBindPoint::eCompute, m_device.pipelines->get(shader, constants),
+                                dispatcher());
+        m_commands.dispatchIndirect(buffer.handle(), offset, dispatcher());
     }
 
     void copy(const Buffer& from, const Buffer& to, VkDeviceSize bytes) const {
@@ -76,6 +83,12 @@ public:
         barrier(vk::PipelineStageFlagBits2::eComputeShader, kShaderAccess, vk::PipelineStageFlagBits2::eComputeShader,
                 kShaderAccess);
     }
+    /// The same where the second takes its number of groups from what the first wrote.
+    void computeToDispatch() const {
+        barrier(vk::PipelineStageFlagBits2::eComputeShader, kShaderAccess,
+                vk::PipelineStageFlagBits2::eComputeShader | vk::PipelineStageFlagBits2::eDrawIndirect,
+                kShaderAccess | vk::AccessFlagBits2::eIndirectCommandRead);
+    }
     void transferToCompute() const {
         barrier(vk::PipelineStageFlagBits2::eTransfer, vk::AccessFlagBits2::eTransferWrite,
                 vk::PipelineStageFlagBits2::eComputeShader, kShaderAccess | vk::AccessFlagBits2::eUniformRead);
@@ -89,8 +102,6 @@ public:
     const vk::raii::DeviceDispatcher& dispatcher() const noexcept { return *m_device.device.getDispatcher(); }
     const PassLayout& layout() const noexcept { return m_device.pipelines->layout(); }
 
-    static constexpr std::uint32_t kGroupSize = 64;  // of shaders/common.glsl
-    static constexpr std::uint32_t kGroupsPerRow = 32768;
     static constexpr vk::AccessFlags2 kShaderAccess =
         vk::AccessFlagBits2::eShaderRead | vk::AccessFlagBits2::eShaderWrite;
 

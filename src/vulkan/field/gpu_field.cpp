@@ -1,249 +1,104 @@
-#include "vulkan/field/gpu_field.h"
-
-#include <chrono>
-#include <cstring>
-#include <limits>
-
-#include "field/probe_emitters.h"
-#include "vulkan/scene/gpu_lighting_impl.h"
+#include "core/sentence.h"
+#include "vulkan/field/gpu_field_impl.h"
 
 namespace probegi::vulkan {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-static_assert(sizeof(RayDatum) == 16 && sizeof(FieldQuery) == 36 && sizeof(kernels::EmitterLight) == 24,
-              "shaders/ray_data.glsl, query.comp, emitter_lights.glsl");
-
-constexpr std::size_t kQueriesPerPiece = std::size_t(1) << 20;
-constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
-
-double millisecondsSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-bool sameSky(const Sky& a, const Sky& b) {
-    return a.radiance == b.radiance && a.image.width == b.image.width && a.image.height == b.image.height &&
-           a.image.pixels == b.image.pixels;
-}
-
-bool sameLight(const PlacedLight& a, const PlacedLight& b) {
-    return a.type == b.type && a.position == b.position && a.direction == b.direction && a.intensity == b.intensity &&
-           a.range == b.range && a.cosInner == b.cosInner && a.cosOuter == b.cosOuter;
-}
-
-bool sameLighting(const Lighting& a, const Lighting& b) {
-    return std::equal(a.lights.begin(), a.lights.end(), b.lights.begin(), b.lights.end(), sameLight) &&
-           sameSky(a.sky, b.sky);
-}
-
-double sumOf(const std::vector<PassTime>& passes, const char* name) {
-    double sum = 0;
-    for (const PassTime& pass : passes)
-        if (pass.name == name) sum += pass.milliseconds;
-    return sum;
+// Whether a range of the caller's holds `count` values of `size` bytes; `what` names it.
+Result<void> checkRange(const BufferRange& range, const char* what, std::size_t count, std::size_t size) {
+    const std::size_t needed = count * size;
+    if (range.bytes < needed)
+        return fail(
+            ErrorCode::invalidArgument,
+            sentence(what, " has ", range.bytes, " bytes; all rays of all tasks need ", needed, " of ", size, " each"));
+    if (range.address == 0 || range.address % 4 != 0)
+        return fail(ErrorCode::invalidArgument,
+                    sentence("the address of ", what, " must be a multiple of 4, and not 0"));
+    return {};
 }
 
 }  // namespace
 
-GpuField::GpuField(const Context& context, const Device& device, const FieldDesc& desc)
-    : m_context(context), m_device(device), m_passes(device, desc), m_exchange(device) {
-    m_profiler.emplace(orThrow(Profiler::create(device)));
-    submitAndWait(device, [&](const Recorder& recorder) { m_passes.recordClear(recorder, desc.guard); });
-}
+GpuField::GpuField(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
+GpuField::GpuField(GpuField&&) noexcept = default;
+GpuField& GpuField::operator=(GpuField&&) noexcept = default;
+GpuField::~GpuField() = default;
 
-template <class Body>
-auto GpuField::attempted(const char* doing, const Body& body) const {
-    auto result = guarded(doing, body);
-    if (!result) m_passes.forgetGuard();
-    return result;
-}
-
-const GpuLighting& GpuField::uploaded(const Lighting& lighting) const {
-    if (m_lightingSource && sameLighting(*m_lightingSource, lighting)) return *m_lighting;
-    m_lightingSource.reset();
-    m_lighting.emplace(orThrow(GpuLighting::create(m_device, lighting)));
-    submitAndWait(m_device, [&](const Recorder& recorder) { orThrow(m_lighting->recordUpload(recorder.commands())); });
-    m_lighting->releaseStaging();
-    m_lightingSource = lighting;
-    return *m_lighting;
-}
-
-UpdateTimes GpuField::updateFrom(const UpdateFrame& frame, std::span<const RayDatum> rayData,
-                                 std::span<const FixedRayDatum> fixedRays,
-                                 std::span<const kernels::EmitterLight> lights) {
-    const auto start = Clock::now();
-    m_mirror.reset();
-    m_exchange.begin(rayData.size_bytes() + fixedRays.size_bytes() + lights.size_bytes(), 16);
-    RayAddresses addresses{.update = m_exchange.add(rayData)};
-    if (!fixedRays.empty()) addresses.fixed = m_exchange.add(fixedRays);
-    if (!lights.empty()) {
-        addresses.emitterLights = m_exchange.add(lights);
-        addresses.looks = int(lights.size() / m_passes.layout().probes);
-    }
-    m_exchange.run(
-        [&](const Recorder& recorder) {
-            m_profiler->recordReset(recorder.commands());
-            m_passes.recordUpdate(recorder, frame, addresses, &*m_profiler);
-        },
-        0);
-    m_updatePasses = orThrow(m_profiler->read());
-    const double elapsed = millisecondsSince(start);
-    return {0, 0, elapsed, elapsed};
-}
-
-UpdateTimes GpuField::updateOnGpu(const UpdateFrame& frame, const GpuTracer& tracer, const Lighting& lighting) {
-    const auto start = Clock::now();
-    m_mirror.reset();
-    const GpuLighting& lights = uploaded(lighting);
-    submitAndWait(m_device, [&](const Recorder& recorder) {
-        m_profiler->recordReset(recorder.commands());
-        m_passes.recordUpdate(recorder, frame, tracer.scene(), lights, &*m_profiler);
-    });
-    m_updatePasses = orThrow(m_profiler->read());
-    return {sumOf(m_updatePasses, "trace"), sumOf(m_updatePasses, "shade") + sumOf(m_updatePasses, "emitters"),
-            sumOf(m_updatePasses, "weights") + sumOf(m_updatePasses, "windows") +
-                sumOf(m_updatePasses, "blend irradiance") + sumOf(m_updatePasses, "blend visibility") +
-                sumOf(m_updatePasses, "filter") + sumOf(m_updatePasses, "solid probes"),
-            millisecondsSince(start)};
-}
-
-Result<UpdateTimes> GpuField::update(const UpdateFrame& frame, std::span<const RayDatum> rayData,
-                                     std::span<const FixedRayDatum> fixedRays) {
-    const std::lock_guard lock(m_mutex);
-    return attempted("updating the field", [&] { return updateFrom(frame, rayData, fixedRays, {}); });
-}
-
-Result<UpdateTimes> GpuField::update(const UpdateFrame& frame, const Tracer& tracer, const Lighting& lighting) {
-    const auto* onGpu = dynamic_cast<const GpuTracer*>(&tracer);
-    if (onGpu && &onGpu->device().impl() == &m_device.impl()) {
-        const std::lock_guard lock(m_mutex);
-        return attempted("updating the field", [&] { return updateOnGpu(frame, *onGpu, lighting); });
-    }
-    return attempted("updating the field", [&] {
-        const auto start = Clock::now();
-        m_rayData.resize(m_passes.layout().probes * m_passes.layout().rays);
-        m_fixedRays.resize(m_passes.layout().probes * frame.fixedDirections.size());
-        BounceQuery bounces;
-        if (frame.bounces)
-            bounces = [&](std::span<const FieldQuery> queries, std::span<glm::vec3> out) {
-                return irradiance(frame.desc, queries, out);
-            };
-        TraceTimes sums;
-        const EmitterSearch emitters = emitterSearch(frame.desc, tracer, frame.raySeed);
-        m_emitterLights.resize(m_passes.layout().probes * std::size_t(emitters.looks));
-        orThrow(traceProbes(m_context, frame.desc.grid, {frame.directions, frame.fixedDirections}, tracer, lighting,
-                            bounces, emitters, {m_rayData, m_fixedRays}, sums));
-        if (emitters) orThrow(lookAtEmitters(m_context, frame.desc.grid, emitters, tracer, m_emitterLights, sums));
-        const double traced = millisecondsSince(start);
-        const double sum = std::max(1.0, double(sums.traceNs + sums.shadeNs));
-        const std::lock_guard lock(m_mutex);
-        UpdateTimes times = updateFrom(frame, m_rayData, m_fixedRays, m_emitterLights);
-        times.trace = traced * double(sums.traceNs) / sum;
-        times.shade = traced * double(sums.shadeNs) / sum;
-        times.total = millisecondsSince(start);
-        return times;
-    });
-}
-
-Result<void> GpuField::irradiance(const FieldDesc& desc, std::span<const FieldQuery> queries,
-                                  std::span<glm::vec3> out) const {
-    const std::lock_guard lock(m_mutex);
-    return attempted("querying the field", [&] {
-        m_queryPasses.clear();
-        for (std::size_t first = 0; first < queries.size(); first += kQueriesPerPiece) {
-            const std::size_t count = std::min(kQueriesPerPiece, queries.size() - first);
-            m_exchange.begin(count * sizeof(FieldQuery), count * sizeof(glm::vec3));
-            const VkDeviceAddress address = m_exchange.add(queries.subspan(first, count));
-            m_exchange.run(
-                [&](const Recorder& recorder) {
-                    m_profiler->recordReset(recorder.commands());
-                    m_passes.recordQuery(recorder, desc, address, m_exchange.out(), std::uint32_t(count), &*m_profiler);
-                },
-                count * sizeof(glm::vec3));
-            std::copy_n(m_exchange.results<glm::vec3>().begin(), count, out.begin() + std::ptrdiff_t(first));
-            for (const PassTime& pass : orThrow(m_profiler->read())) m_queryPasses.push_back(pass);
-        }
-    });
-}
-
-glm::vec3 GpuField::irradiance(const FieldDesc& desc, const FieldQuery& query) const noexcept {
-    glm::vec3 result(kNotANumber);
-    const auto done = irradiance(desc, {&query, 1}, {&result, 1});
-    return done ? result : glm::vec3(kNotANumber);
-}
-
-template <class T, class Read>
-T GpuField::mirrored(const T& failed, const Read& read) const noexcept {
-    const std::lock_guard lock(m_mutex);
-    const auto result = guarded("reading probes", [&] {
-        if (!m_mirror) m_mirror.emplace(m_passes);
-        return read(*m_mirror);
-    });
-    return result ? *result : failed;
-}
-
-Result<std::vector<float>> GpuField::brightness() const {
-    const std::lock_guard lock(m_mutex);
-    return guarded("reading probes", [&] {
-        if (!m_mirror) m_mirror.emplace(m_passes);
-        return m_mirror->brightness();
-    });
-}
-
-float GpuField::probeBackfaceShare(int probe) const noexcept {
-    return mirrored(kNotANumber, [&](const VolumeMirror& mirror) { return mirror.backfaceShare(probe); });
-}
-
-glm::vec3 GpuField::probeIrradiance(int probe, glm::vec3 normal) const noexcept {
-    return mirrored(glm::vec3(kNotANumber),
-                    [&](const VolumeMirror& mirror) { return mirror.probeIrradiance(probe, normal); });
-}
-
-glm::vec2 GpuField::probeDistanceMoments(int probe, glm::vec3 direction) const noexcept {
-    return mirrored(glm::vec2(kNotANumber),
-                    [&](const VolumeMirror& mirror) { return mirror.probeDistanceMoments(probe, direction); });
-}
-
-std::uint64_t GpuField::fallbackQueries() const noexcept {
-    const std::lock_guard lock(m_mutex);
-    // Queries count without an update: the mirror may be older.
-    const auto count = guarded("reading the count of fallbacks", [&] {
-        const Buffer word(m_device.impl(), "fallbacks", 4, vk::BufferUsageFlagBits::eTransferDst, MemoryUse::readback);
-        submitAndWait(m_device, [&](const Recorder& recorder) {
-            recorder.orderAll();
-            recorder.copy(m_passes.states(), word, 4);
-            recorder.transferToHost();
-        });
-        return word.mapped<std::uint32_t>()[0];
-    });
-    return count ? *count : 0;
-}
-
-FieldMemory GpuField::memory() const noexcept {
-    const std::lock_guard lock(m_mutex);
-    FieldMemory memory = m_passes.memory();
-    memory.scratchBytes += m_exchange.bytes();
-    return memory;
-}
-
-std::vector<PassTime> GpuField::passTimes() const {
-    const std::lock_guard lock(m_mutex);
-    std::vector<PassTime> all = m_updatePasses;
-    all.insert(all.end(), m_queryPasses.begin(), m_queryPasses.end());
-    return all;
-}
-
-Result<Field> makeField(const Context& context, const Device& device, const FieldDesc& desc) {
+Result<GpuField> GpuField::create(const Device& device, const FieldDesc& desc, const FieldSettings& settings) {
     if (auto ok = validateFieldDesc(desc); !ok) return ok.error();
-    return guarded("making a field",
-                   [&] { return makeFieldOn(context, desc, std::make_unique<GpuField>(context, device, desc)); });
+    if (auto ok = validateFieldSettings(settings); !ok) return ok.error();
+    return guarded("making a field", [&] { return GpuField(std::make_unique<Impl>(device, desc, settings)); });
 }
 
-std::vector<PassTime> lastPassTimes(const Field& field) {
-    const auto* onGpu = dynamic_cast<const GpuField*>(&backendOf(field));
-    return onGpu ? onGpu->passTimes() : std::vector<PassTime>();
+FieldControl& GpuField::control() noexcept {
+    return m_impl->control;
+}
+const FieldControl& GpuField::control() const noexcept {
+    return m_impl->control;
+}
+FieldMemory GpuField::memory() const noexcept {
+    return m_impl->passes.memory();
+}
+
+Result<void> GpuField::recordSettings(VkCommandBuffer commands) {
+    return m_impl->recorded("recording a field's settings", [&] {
+        m_impl->passes.recordSettings({m_impl->passes.device().impl(), commands}, m_impl->control.settings());
+    });
+}
+
+Result<void> GpuField::recordClear(VkCommandBuffer commands) {
+    return m_impl->recorded("recording the clearing of probes", [&] {
+        m_impl->passes.recordClear({m_impl->passes.device().impl(), commands}, m_impl->control.settings());
+        m_impl->books().restart();
+    });
+}
+
+Result<void> GpuField::recordUpdate(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,
+                                    Profiler* profiler) {
+    return m_impl->recorded("recording an update", [&] {
+        m_impl->passes.recordUpdate({m_impl->passes.device().impl(), commands}, m_impl->books().comingUpdate(), scene,
+                                    lighting, profiler);
+        m_impl->books().advance();
+    });
+}
+
+Result<void> GpuField::recordUpdate(VkCommandBuffer commands, const BufferRange& rayData, Profiler* profiler) {
+    return recordUpdate(commands, rayData, BufferRange(), profiler);
+}
+
+Result<void> GpuField::recordUpdate(VkCommandBuffer commands, const BufferRange& rayData, const BufferRange& fixedRays,
+                                    Profiler* profiler) {
+    FieldControl::Impl& books = m_impl->books();
+    if (auto ok = checkRange(rayData, "rayData", books.rayCount(), sizeof(RayDatum)); !ok) return ok;
+    if (!fixedRays.empty())
+        if (auto ok = checkRange(fixedRays, "fixedRays", books.fixedRayCount(), sizeof(FixedRayDatum)); !ok) return ok;
+    return m_impl->recorded("recording an update", [&] {
+        const UpdateFrame frame = fixedRays.empty() ? books.comingUpdateWithoutFixedRays() : books.comingUpdate();
+        m_impl->passes.recordUpdate({m_impl->passes.device().impl(), commands}, frame,
+                                    RayAddresses{rayData.address, fixedRays.address}, profiler);
+        books.advance();
+    });
+}
+
+Result<void> GpuField::recordQuery(VkCommandBuffer commands, VkDeviceAddress queries, VkDeviceAddress irradiance,
+                                   std::uint32_t count, Profiler* profiler) {
+    return m_impl->recorded("recording a query", [&] {
+        m_impl->passes.recordQuery({m_impl->passes.device().impl(), commands}, m_impl->control.settings(), queries,
+                                   irradiance, count, profiler);
+    });
+}
+
+std::array<VkDescriptorSetLayoutBinding, kQueryBindings> GpuField::queryBindings(std::uint32_t firstBinding,
+                                                                                 VkShaderStageFlags stages) noexcept {
+    return {{{firstBinding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, stages, nullptr},
+             {firstBinding + 1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages, nullptr},
+             {firstBinding + 2, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages, nullptr},
+             {firstBinding + 3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, stages, nullptr}}};
+}
+
+void GpuField::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBinding) const {
+    m_impl->passes.writeQueryBindings(set, firstBinding);
 }
 
 }  // namespace probegi::vulkan

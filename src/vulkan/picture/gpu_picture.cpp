@@ -3,7 +3,7 @@
 #include "core/progress.h"
 #include "geometry/picture_desc.h"
 #include "kernels/abi/gpu_passes.h"
-#include "vulkan/field/gpu_field.h"
+#include "vulkan/field/vulkan_field.h"
 #include "vulkan/picture/shading.h"
 
 namespace probegi::vulkan {
@@ -29,7 +29,7 @@ public:
     PictureRenderer(const Device& device, const GpuTracer& tracer, const GpuLighting& lighting, const Field* field,
                     const PictureDesc& desc)
         : m_device(device), m_tracer(tracer), m_field(field), m_desc(desc), m_exchange(device) {
-        if (field) m_volume = &onDevice<GpuField>(device, backendOf(*field), "field").passes();
+        if (field) m_volume = &onDevice<VulkanField>(device, backendOf(*field), "field").passes();
         m_profiler.emplace(orThrow(Profiler::create(device)));
         const std::size_t perPixel = std::size_t(desc.samplesPerAxis) * desc.samplesPerAxis;
         const std::size_t perRow = std::size_t(desc.width) * perPixel;
@@ -72,7 +72,7 @@ private:
         const Device::Impl& device = m_device.impl();
         const std::string tracer = m_tracer.scene().impl().shaderSuffix();
         m_profiler->recordReset(recorder.commands());
-        if (m_volume) m_volume->recordGuard(recorder, m_field->desc());
+        if (m_volume) m_volume->recordSettings(recorder, m_field->control().settings());
         recorder.bindScene(m_tracer.scene().impl().set());
         recorder.push(m_push);
         {
@@ -98,7 +98,7 @@ private:
     Device m_device;
     const GpuTracer& m_tracer;
     const Field* m_field;
-    VolumePasses* m_volume = nullptr;  // of the field
+    FieldPasses* m_volume = nullptr;  // of the field
     PictureDesc m_desc;
     Exchange m_exchange;
     std::optional<Profiler> m_profiler;

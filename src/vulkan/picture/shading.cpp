@@ -21,7 +21,7 @@ static_assert(ShadingSample::surface == kernels::kSampleSurface && ShadingSample
 }  // namespace
 
 void recordSampleShading(const Recorder& recorder, const Device& device, const GpuScene& scene,
-                         const VolumePasses* volume, const kernels::PicturePush& push, Profiler* profiler) {
+                         const FieldPasses* volume, const kernels::PicturePush& push, Profiler* profiler) {
     // Sets stay bound through both passes, which share one layout.
     if (volume) recorder.bindVolume(volume->set());
     recorder.bindScene(scene.impl().set());
@@ -40,15 +40,15 @@ void recordSampleShading(const Recorder& recorder, const Device& device, const G
 }
 
 Result<void> recordShading(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,
-                           ProbeVolume* volume, VkDeviceAddress samples, std::uint32_t count, bool diffuseOnly,
+                           GpuField* field, VkDeviceAddress samples, std::uint32_t count, bool diffuseOnly,
                            Profiler* profiler) {
     const Device& device = scene.impl().device;
-    VolumePasses* passes = volume ? &volume->impl().passes : nullptr;
+    FieldPasses* passes = field ? &field->impl().passes : nullptr;
     if (&lighting.impl().device.impl() != &device.impl() || (passes && &passes->device().impl() != &device.impl()))
-        return fail(ErrorCode::invalidArgument, "scene, lighting and volume are not of one device");
+        return fail(ErrorCode::invalidArgument, "scene, lighting and field are not of one device");
     return guarded("recording shading", [&] {
         const Recorder recorder(device.impl(), commands);
-        if (passes) passes->recordGuard(recorder, volume->desc());
+        if (passes) passes->recordSettings(recorder, field->control().settings());
         kernels::PicturePush push{};
         push.samples = packAddress(samples);
         push.lighting = packAddress(lighting.impl().address());

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/abi/gpu_passes.h"
-#include "vulkan/field/probe_volume_impl.h"
+#include "vulkan/field/gpu_field_impl.h"
 #include "vulkan/scene/gpu_lighting_impl.h"
 #include "vulkan/scene/gpu_scene_impl.h"
 
@@ -10,6 +10,6 @@ namespace probegi::vulkan {
 /// Direct light and the field for the samples that `push` names. `volume` (may be null) is bound by this; its guard is
 /// up to date. Ends ordered for compute shaders. Throws.
 void recordSampleShading(const Recorder& recorder, const Device& device, const GpuScene& scene,
-                         const VolumePasses* volume, const kernels::PicturePush& push, Profiler* profiler);
+                         const FieldPasses* volume, const kernels::PicturePush& push, Profiler* profiler);
 
 }  // namespace probegi::vulkan

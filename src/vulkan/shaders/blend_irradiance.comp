@@ -8,6 +8,7 @@
 #include "filter.glsl"
 #include "ray_data.glsl"
 #include "sides.glsl"
+#include "tasks.glsl"
 #include "volume.glsl"
 
 #include "kernels/abi/gpu_passes.h"
@@ -35,15 +36,15 @@ shared uvec4 counts[kFours][kRays];                  // of what a thread has see
 
 // The group's rays from `first` on, a ray of four probes a thread. What is beyond the last ray or probe counts as
 // nothing. Whole vectors are stored: no two threads write to the same one.
-void loadRays(int firstProbe, int firstRay, inout uvec4 seen) {
+void loadRays(int tasks, int firstTask, int firstRay, inout uvec4 seen) {
     const int four = int(gl_LocalInvocationID.x) / kRays;
     const int i = int(gl_LocalInvocationID.x) % kRays;
     const int ray = firstRay + i;
     vec4 value[4] = vec4[](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
     for (int p = 0; p < 4; ++p) {
-        const int probe = firstProbe + 4 * four + p;
-        if (ray >= push.rays || probe >= push.probes) continue;
-        const RayDatum d = RayData(push.rayData).at[probe * push.rays + ray];
+        const int task = firstTask + 4 * four + p;
+        if (ray >= push.rays || task >= tasks) continue;
+        const RayDatum d = RayData(push.rayData).at[task * push.rays + ray];
         const float distance = safeDistance(d.distance);
         const vec3 light = arrivingRadiance(distance, d.radiance);
         const bool backface = hitBackface(distance, d.radiance.x);
@@ -63,61 +64,65 @@ void loadWeights(int firstTexel, int texels, int firstRay) {
     }
 }
 
-void store(int probe, int texel, vec3 newMean, inout TexelChange change) {
-    const int size = probegiVolume.irradianceTexels;
-    const ivec3 cell = gpuProbeCell(probe, probegiVolume.counts);
-    const ivec2 tile = gpuTileOrigin(cell, size);
+// Dither goes by a probe's number in its volume: a volume's probes do not depend on others.
+void store(GpuTask task, int texel, vec3 newMean, inout TexelChange change) {
+    const int size = probegiField.irradianceTexels;
+    const ivec3 place = poolTile(probegiField.tiles, int(task.slot));
+    const ivec2 tile = tileOrigin(place, size);
+    const uint number = task.slot - uint(probegiField.volumes[task.volume].firstSlot);
     const ivec2 at = ivec2(texel % size, texel / size);
-    const vec3 old = imageLoad(irradianceImage, ivec3(tile + at, cell.z)).rgb;
+    const vec3 old = imageLoad(irradianceImage, ivec3(tile + at, place.z)).rgb;
     float kept = push.irradianceHysteresis;
     if (push.steps != uvec2(0u)) {
-        kept = ProbeSteps(push.steps).at[probe].irradianceKept;
+        kept = ProbeSteps(push.steps).at[task.slot].irradianceKept;
         addTexelChange(change, old, newMean);
     }
     const BlendRule rule = BlendRule(kept, push.significantChange, push.newDistribution);
     const uvec3 bits =
-        blendIrradianceTexel(old, newMean, rule, push.linear != 0, push.ditherSeed, uint(probe * size * size + texel));
+        blendIrradianceTexel(old, newMean, rule, push.linear != 0, push.ditherSeed, number * uint(size * size) + uint(texel));
     // Exact in the image's halves: they were rounded already, with the dither.
     const vec4 stored = vec4(unpackHalf(bits.x), unpackHalf(bits.y), unpackHalf(bits.z), 0.0);
-    imageStore(irradianceImage, ivec3(tile + at, cell.z), stored);
+    imageStore(irradianceImage, ivec3(tile + at, place.z), stored);
     for (int copy = 0; copy < 3; ++copy) {
         const ivec2 border = octBorderTexel(at.x, at.y, size, copy);
-        if (border != at) imageStore(irradianceImage, ivec3(tile + border, cell.z), stored);
+        if (border != at) imageStore(irradianceImage, ivec3(tile + border, place.z), stored);
     }
 }
 
 // Mean radiance that the looks at emitters add to a texel.
-vec3 fromEmitters(int probe, int texel) {
-    const int size = probegiVolume.irradianceTexels;
+vec3 fromEmitters(int task, int texel) {
+    const int size = probegiField.irradianceTexels;
     const vec3 n = octTexelDirection(texel % size, texel / size, size);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < push.looks; ++i) {
-        const EmitterLight l = EmitterLights(push.emitterLights).at[probe * push.looks + i];
+        const EmitterLight l = EmitterLights(push.emitterLights).at[task * push.looks + i];
         sum += irradianceWeight(n, l.direction) * l.light;
     }
     return sum;
 }
 
-void storeSides(int local, int probe) {
+void storeSides(int local, uint slot) {
     SidesSeen seen = SidesSeen(0, 0, 0);
     for (int i = 0; i < kRays; ++i) seen = addSides(seen, counts[local / 4][i][local % 4]);
     const float kept =
-        push.steps == uvec2(0u) ? push.visibilityHysteresis : ProbeSteps(push.steps).at[probe].visibilityKept;
-    const ProbeSides sides = rememberSides(Sides(push.sides).at[probe], seen, push.rays, kept);
-    Sides(push.sides).at[probe] = sides;
-    probegiStates.backfaceShare[probe] =
-        mix(solidShare(sides, seen, push.rays), probegiStates.backfaceShare[probe], kept);
+        push.steps == uvec2(0u) ? push.visibilityHysteresis : ProbeSteps(push.steps).at[slot].visibilityKept;
+    const ProbeSides sides = rememberSides(Sides(push.sides).at[slot], seen, push.rays, kept);
+    Sides(push.sides).at[slot] = sides;
+    probegiStates.backfaceShare[slot] =
+        mix(solidShare(sides, seen, push.rays), probegiStates.backfaceShare[slot], kept);
 }
 
-void storeChange(int local, int probe) {
+void storeChange(int local, int task, int tasks) {
     TexelChange sum = noChange();
     for (int i = 0; i < kTexelThreads; ++i) joinChanges(sum, changes[local][i]);
-    TexelChanges(push.changes).at[int(gl_WorkGroupID.y) * push.probes + probe] = sum;
+    TexelChanges(push.changes).at[int(gl_WorkGroupID.y) * tasks + task] = sum;
 }
 
 void main() {
-    const int texels = probegiVolume.irradianceTexels * probegiVolume.irradianceTexels;
-    const int firstProbe = int(blockIndex()) * kProbes;
+    const int texels = probegiField.irradianceTexels * probegiField.irradianceTexels;
+    Tasks list = Tasks(push.tasks);
+    const int tasks = int(list.counts.tasks);
+    const int firstTask = int(blockIndex()) * kProbes;
     const int firstTexel = int(gl_WorkGroupID.y) * kTexels;
     const int thread = int(gl_LocalInvocationID.x);
     const int myTexel = thread % kTexelThreads;
@@ -129,7 +134,7 @@ void main() {
 
     for (int ray = 0; ray < push.rays; ray += kRays) {
         barrier();
-        loadRays(firstProbe, ray, seen);
+        loadRays(tasks, firstTask, ray, seen);
         loadWeights(firstTexel, texels, ray);
         barrier();
         for (int k = 0; k < kRays; ++k) {
@@ -147,11 +152,11 @@ void main() {
         TexelChange change = noChange();
         for (int t = 0; t < kBlock; ++t) {
             const int texel = firstTexel + myTexel + kTexelThreads * t;
-            const int probe = firstProbe + 4 * myFour + p;
-            if (texel >= texels || probe >= push.probes) continue;
+            const int task = firstTask + 4 * myFour + p;
+            if (texel >= texels || task >= tasks) continue;
             vec4 mean = vec4(sum[t][0][p], sum[t][1][p], sum[t][2][p], sum[t][3][p]);
-            mean.xyz += fromEmitters(probe, texel);
-            store(probe, texel,
+            mean.xyz += fromEmitters(task, texel);
+            store(list.at[task], texel,
                   kExcludeBackfaces == 0 ? mean.xyz
                                          : vec3(withoutBackfaces(mean.x, mean.w), withoutBackfaces(mean.y, mean.w),
                                                 withoutBackfaces(mean.z, mean.w)),
@@ -161,7 +166,7 @@ void main() {
     }
     counts[thread / kRays][thread % kRays] = seen;
     barrier();
-    if (thread >= kProbes || firstProbe + thread >= push.probes) return;
-    if (gl_WorkGroupID.y == 0) storeSides(thread, firstProbe + thread);
-    if (push.steps != uvec2(0u)) storeChange(thread, firstProbe + thread);
+    if (thread >= kProbes || firstTask + thread >= tasks) return;
+    if (gl_WorkGroupID.y == 0) storeSides(thread, list.at[firstTask + thread].slot);
+    if (push.steps != uvec2(0u)) storeChange(thread, firstTask + thread, tasks);
 }

@@ -3,6 +3,7 @@
 // shared memory, side by side: a texel's entry is one load of them for all probes.
 #include "filter.glsl"
 #include "ray_data.glsl"
+#include "tasks.glsl"
 #include "volume.glsl"
 
 #include "kernels/abi/gpu_passes.h"
@@ -25,44 +26,52 @@ const int kRays = 256;  // that lie in shared memory at a time
 
 shared vec4 distances[kRays];  // as fractions of the farthest, of each probe
 
-void store(int probe, int texel, float evidence, vec2 newMoments) {
-    const int size = probegiVolume.visibilityTexels;
-    const ivec3 cell = gpuProbeCell(probe, probegiVolume.counts);
-    const ivec2 tile = gpuTileOrigin(cell, size);
+void store(GpuTask task, int texel, float evidence, vec2 newMoments) {
+    const int size = probegiField.visibilityTexels;
+    const ivec3 place = poolTile(probegiField.tiles, int(task.slot));
+    const ivec2 tile = tileOrigin(place, size);
+    const uint number = task.slot - uint(probegiField.volumes[task.volume].firstSlot);
     const ivec2 at = ivec2(texel % size, texel / size);
-    const vec2 old = imageLoad(visibilityImage, ivec3(tile + at, cell.z)).rg;
+    const vec2 old = imageLoad(visibilityImage, ivec3(tile + at, place.z)).rg;
     const float kept =
-        push.steps == uvec2(0u) ? push.visibilityHysteresis : ProbeSteps(push.steps).at[probe].visibilityKept;
+        push.steps == uvec2(0u) ? push.visibilityHysteresis : ProbeSteps(push.steps).at[task.slot].visibilityKept;
     const vec4 stored =
         vec4(unpackMoments(blendVisibilityTexel(packMoments(old), newMoments, keptMoments(kept, evidence),
-                                                push.ditherSeed, uint(probe * size * size + texel))),
+                                                push.ditherSeed, number * uint(size * size) + uint(texel))),
              0.0, 0.0);
-    imageStore(visibilityImage, ivec3(tile + at, cell.z), stored);
+    imageStore(visibilityImage, ivec3(tile + at, place.z), stored);
     for (int copy = 0; copy < 3; ++copy) {
         const ivec2 border = octBorderTexel(at.x, at.y, size, copy);
-        if (border != at) imageStore(visibilityImage, ivec3(tile + border, cell.z), stored);
+        if (border != at) imageStore(visibilityImage, ivec3(tile + border, place.z), stored);
     }
 }
 
-// The group's rays from `first` on. Probes beyond the last repeat it: their result is not stored.
-void loadDistances(int firstProbe, int first) {
+// The group's rays from `first` on. Tasks beyond the last repeat it: their result is not stored.
+void loadDistances(int firstTask, int first) {
+    Tasks list = Tasks(push.tasks);
+    const int last = int(list.counts.tasks) - 1;
+    float farthest[kProbes];
+    for (int p = 0; p < kProbes; ++p)
+        farthest[p] = probegiField.volumes[list.at[min(firstTask + p, last)].volume].maxDistance;
     const int count = min(kRays, push.rays - first);
     for (int i = int(gl_LocalInvocationID.x); i < count; i += int(gl_WorkGroupSize.x)) {
         vec4 d;
         for (int p = 0; p < kProbes; ++p) {
-            const int probe = min(firstProbe + p, push.probes - 1);
-            const RayDatum datum = RayData(push.rayData).at[probe * push.rays + first + i];
+            const int task = min(firstTask + p, last);
+            const RayDatum datum = RayData(push.rayData).at[task * push.rays + first + i];
             const float distance = safeDistance(datum.distance);
             const bool backface = hitBackface(distance, datum.radiance.x);
-            d[p] = visibilityDistance(backface ? distance : abs(distance), push.maxDistance);
+            d[p] = visibilityDistance(backface ? distance : abs(distance), farthest[p]);
         }
         distances[i] = d;
     }
 }
 
 void main() {
-    const int texels = probegiVolume.visibilityTexels * probegiVolume.visibilityTexels;
-    const int firstProbe = int(blockIndex()) * kProbes;
+    const int texels = probegiField.visibilityTexels * probegiField.visibilityTexels;
+    const int firstTask = int(blockIndex()) * kProbes;
+    Tasks list = Tasks(push.tasks);
+    const int tasks = int(list.counts.tasks);
     for (int firstTexel = 0; firstTexel < texels; firstTexel += int(gl_WorkGroupSize.x)) {
         const int texel = firstTexel + int(gl_LocalInvocationID.x);
         GpuTexelRays seen = GpuTexelRays(0u, 0.0);
@@ -72,7 +81,7 @@ void main() {
         for (int first = 0; first < push.rays; first += kRays) {
             if (firstTexel == 0 || push.rays > kRays) {
                 barrier();
-                loadDistances(firstProbe, first);
+                loadDistances(firstTask, first);
                 barrier();
             }
             for (; k < seen.count; ++k) {
@@ -85,7 +94,7 @@ void main() {
             }
         }
         for (int p = 0; p < kProbes; ++p)
-            if (texel < texels && firstProbe + p < push.probes)
-                store(firstProbe + p, texel, seen.evidence, vec2(mean[p], meanSquare[p]));
+            if (texel < texels && firstTask + p < tasks)
+                store(list.at[firstTask + p], texel, seen.evidence, vec2(mean[p], meanSquare[p]));
     }
 }

@@ -4,6 +4,7 @@
 #include "emitter_lights.glsl"
 #include "rays.glsl"
 #include "scene_set.glsl"
+#include "tasks.glsl"
 #include "volume.glsl"
 
 #include "kernels/blend/probe_blend.h"
@@ -39,15 +40,15 @@ vec3 arriving(vec3 probe, EmitterAim aim, int material) {
     return vec3(safeRadiance(surface.emission.x), safeRadiance(surface.emission.y), safeRadiance(surface.emission.z));
 }
 
-EmitterLight look(int probe, uint index) {
+EmitterLight look(GpuTask task, uint index) {
     SceneEmitters emitters = SceneEmitters(PROBEGI_SCENE.emitters);
-    const uint seed = emitterSeed(push.emitterSeed, uint(probe));
+    const uint number = task.slot - uint(probegiField.volumes[task.volume].firstSlot);
+    const uint seed = emitterSeed(push.emitterSeed, number);
     const uint choice = emitterChoice(seed, index, uint(push.looks));
     const int chosen = chosenEmitter(emitters, choice);
     const GpuEmitter emitter = emitters.at[chosen];
     const uint below = chosen == 0 ? 0u : emitters.at[chosen - 1].upTo;
-    const vec3 origin =
-        probePlace(gpuProbeCell(probe, probegiVolume.counts), probegiVolume.origin, probegiVolume.spacing);
+    const vec3 origin = task.origin;
     const EmitterAim aim = aimAtEmitter(origin, emitter.corner, emitter.edge1, emitter.edge2,
                                         emitterBarycentric(seed, index, choice, below, emitter.upTo));
     const float factor = emitterLightFactor(push.rays, push.looks, emitterPerArea(emitter.material), aim);
@@ -56,9 +57,10 @@ EmitterLight look(int probe, uint index) {
 
 void main() {
     const uint index = globalIndex();
-    if (index >= uint(push.probes) * uint(push.looks)) return;
-    const int probe = int(index % uint(push.probes));
-    const uint number = index / uint(push.probes);
+    Tasks list = Tasks(push.tasks);
+    if (index >= list.counts.tasks * uint(push.looks)) return;
+    const uint task = index % list.counts.tasks;
+    const uint number = index / list.counts.tasks;
     useSceneOnly();
-    EmitterLights(push.emitterLights).at[uint(probe) * uint(push.looks) + number] = look(probe, number);
+    EmitterLights(push.emitterLights).at[task * uint(push.looks) + number] = look(list.at[task], number);
 }

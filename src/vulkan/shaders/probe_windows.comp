@@ -1,35 +1,39 @@
 // Each probe's windows for the coming blend, from its own and its neighbours' lag. A thread a probe.
 #include "filter.glsl"
+#include "tasks.glsl"
 #include "volume.glsl"
 
 layout(push_constant, scalar) uniform Push {
     FilterPush push;
 };
 
-ProbeLag lagAt(ivec3 cell) {
-    return ProbeSteps(push.steps).at[probeNumber(cell, probegiVolume.counts)].lag;
+ProbeLag lagAt(Volume volume, ivec3 cell) {
+    return ProbeSteps(push.steps).at[probeSlot(volume, cell)].lag;
 }
 
-LagAround lagAround(ivec3 at) {
+LagAround lagAround(Volume volume, ivec3 at) {
     const ivec3 lowest = max(at - 1, ivec3(0));
-    const ivec3 highest = min(at + 1, probegiVolume.counts - 1);
+    const ivec3 highest = min(at + 1, volume.counts - 1);
     float brightest = 0.0;
     for (int z = lowest.z; z <= highest.z; ++z)
         for (int y = lowest.y; y <= highest.y; ++y)
-            for (int x = lowest.x; x <= highest.x; ++x) brightest = max(brightest, lagAt(ivec3(x, y, z)).level);
+            for (int x = lowest.x; x <= highest.x; ++x) brightest = max(brightest, lagAt(volume, ivec3(x, y, z)).level);
     LagAround around = noLag();
     for (int z = lowest.z; z <= highest.z; ++z)
         for (int y = lowest.y; y <= highest.y; ++y)
             for (int x = lowest.x; x <= highest.x; ++x)
-                addLag(around, lagAt(ivec3(x, y, z)), brightest, ivec3(x, y, z) == at);
+                addLag(around, lagAt(volume, ivec3(x, y, z)), brightest, ivec3(x, y, z) == at);
     return around;
 }
 
 void main() {
-    const int probe = int(globalIndex());
-    if (probe >= push.probes) return;
+    const uint index = globalIndex();
+    if (index >= Tasks(push.tasks).counts.tasks) return;
+    const GpuTask task = Tasks(push.tasks).at[index];
+    const Volume volume = probegiField.volumes[task.volume];
+    const uint probe = task.slot;
     ProbeFilter probeFilter = unpackFilter(ProbeFilters(push.filters).at[probe]);
-    const LagAround around = lagAround(gpuProbeCell(probe, probegiVolume.counts));
+    const LagAround around = lagAround(volume, probeCell(volume, int(probe)));
     const float lag = filterLag(around, probeFilter.noise, probeFilter.window, push.ownRays != 0);
     probeFilter.window = nextWindow(probeFilter.window, probeFilter.noise, lag, push.longestWindow);
     probeFilter.visibilityWindow =

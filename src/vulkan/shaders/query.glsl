@@ -1,7 +1,7 @@
 // The field in your own shaders: how much light arrives at a point that faces a normal (DDGI paper, section 2.2).
 //
 //     #define PROBEGI_SET 1        // descriptor set, and the first of four bindings in it, that were given to
-//     #define PROBEGI_BINDING 0    // ProbeVolume::queryBindings() and writeQueryBindings()
+//     #define PROBEGI_BINDING 0    // GpuField::queryBindings() and writeQueryBindings()
 //     #include "probegi/query.glsl"
 //     ...
 //     vec3 e = probegiIrradiance(position, normal, toViewer);  // W m^-2; vec3(0): nobody looks
@@ -15,10 +15,11 @@
 
 #extension GL_EXT_scalar_block_layout : require
 
-#include "kernels/volume/gpu_volume.h"
+#include "kernels/abi/field_constants.h"
 #include "kernels/probe/irradiance_decoding.h"
 #include "kernels/probe/octahedral.h"
 #include "kernels/volume/probe_cage.h"
+#include "kernels/volume/volume_frame.h"
 #include "kernels/lookup/probe_neighbours.h"
 #include "kernels/lookup/surface_gradient.h"
 
@@ -34,9 +35,10 @@
 #define PROBEGI_STATES_ACCESS readonly
 #endif
 
-layout(set = PROBEGI_SET, binding = PROBEGI_BINDING, scalar) uniform ProbegiVolume {
-    GpuVolume probegiVolume;
+layout(set = PROBEGI_SET, binding = PROBEGI_BINDING, scalar) uniform ProbegiConstants {
+    FieldConstants probegiField;
 };
+#define probegiVolume probegiField.volumes[0]
 layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 1) uniform sampler2DArray probegiIrradianceAtlas;
 layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 2) uniform sampler2DArray probegiVisibilityAtlas;
 layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 3, scalar) PROBEGI_STATES_ACCESS buffer ProbegiStates {
@@ -47,43 +49,52 @@ probegiStates;
 
 // For ray data of your own: how many probes there are, and where each stands. Its rays begin there.
 int probegiProbeCount() {
-    return probegiVolume.counts.x * probegiVolume.counts.y * probegiVolume.counts.z;
+    const Volume last = probegiField.volumes[probegiField.volumeCount - 1];
+    return last.firstSlot + volumeProbes(last);
 }
-vec3 probegiProbePosition(int probe) {
-    return probePlace(gpuProbeCell(probe, probegiVolume.counts), probegiVolume.origin, probegiVolume.spacing);
+int probegiVolumeOf(int slot) {
+    int volume = 0;
+    while (volume + 1 < probegiField.volumeCount && slot >= probegiField.volumes[volume + 1].firstSlot) ++volume;
+    return volume;
+}
+vec3 probegiProbePosition(int slot) {
+    const Volume volume = probegiField.volumes[probegiVolumeOf(slot)];
+    return probePosition(volume, probeCell(volume, slot));
 }
 
 // What a probe stores towards a normal, encoded. `texel`: octTexelPosition of the normal.
 vec3 probegiStored(ivec3 cell, vec2 texel) {
-    const vec2 at = gpuAtlasCoordinates(cell, texel, probegiVolume.irradianceTexels, probegiVolume.irradianceTexelSize);
-    return textureLod(probegiIrradianceAtlas, vec3(at, float(cell.z)), 0.0).rgb;
+    const ivec3 tile = poolTile(probegiField.tiles, probeSlot(probegiVolume, cell));
+    const vec2 at = atlasCoordinates(tile, texel, probegiField.irradianceTexels, probegiField.irradianceTexelSize);
+    return textureLod(probegiIrradianceAtlas, vec3(at, float(tile.z)), 0.0).rgb;
 }
 
 // Mean and mean square of distance, as fractions of the farthest, that a probe stores in a direction.
-vec2 probegiMoments(ivec3 cell, vec3 direction) {
-    const vec2 texel = octTexelPosition(octEncode(direction), probegiVolume.visibilityTexels);
-    const vec2 at = gpuAtlasCoordinates(cell, texel, probegiVolume.visibilityTexels, probegiVolume.visibilityTexelSize);
-    return textureLod(probegiVisibilityAtlas, vec3(at, float(cell.z)), 0.0).rg;
+vec2 probegiMoments(int slot, vec3 direction) {
+    const ivec3 tile = poolTile(probegiField.tiles, slot);
+    const vec2 texel = octTexelPosition(octEncode(direction), probegiField.visibilityTexels);
+    const vec2 at = atlasCoordinates(tile, texel, probegiField.visibilityTexels, probegiField.visibilityTexelSize);
+    return textureLod(probegiVisibilityAtlas, vec3(at, float(tile.z)), 0.0).rg;
 }
 
 // Leak guard: how far a probe of the cage may be used. `fromProbe`: to the biased point, metres.
 float probegiGuard(ivec3 cell, vec3 fromProbe) {
-    if (probegiVolume.guard == kGuardNone) return 1.0;
-    const vec2 moments = probegiMoments(cell, fromProbe);
+    if (probegiField.guard == kGuardNone) return 1.0;
+    const vec2 moments = probegiMoments(probeSlot(probegiVolume, cell), fromProbe);
     return chebyshevWeight(moments.x, moments.y, length(fromProbe) * probegiVolume.inverseMaxDistance,
-                           probegiVolume.rules);
+                           probegiField.rules);
 }
 
 // The same for the neighbours of a cage that does not know.
 float probegiNeighbourGuard(ivec3 cell, vec3 fromProbe) {
-    if (probegiVolume.guard == kGuardNone) return 1.0;
-    return neighbourVisibility(probegiMoments(cell, fromProbe),
+    if (probegiField.guard == kGuardNone) return 1.0;
+    return neighbourVisibility(probegiMoments(probeSlot(probegiVolume, cell), fromProbe),
                                (length(fromProbe) + kNoLength) * probegiVolume.inverseMaxDistance);
 }
 
 // How far a probe may be used at all.
 float probegiOutside(ivec3 cell) {
-    return outsideWeight(probegiStates.backfaceShare[probeNumber(cell, probegiVolume.counts)], probegiVolume.rules);
+    return outsideWeight(probegiStates.backfaceShare[probeSlot(probegiVolume, cell)], probegiField.rules);
 }
 
 // What a probe answers in the space in which probes are blended.
@@ -127,7 +138,7 @@ ProbegiFront probegiFront(vec3 normal, ivec3 base) {
     front.step[front.axis] = 2 * front.side - 1;
     const int beyond = base[front.axis] + (front.side == 1 ? 2 : -1);
     const bool known =
-        probegiVolume.rules == kRulesMeasured && beyond >= 0 && beyond < probegiVolume.counts[front.axis];
+        probegiField.rules == kRulesMeasured && beyond >= 0 && beyond < probegiVolume.counts[front.axis];
     front.trust = known ? axisTrust(normal) : 0.0;
     return front;
 }
@@ -135,11 +146,11 @@ ProbegiFront probegiFront(vec3 normal, ivec3 base) {
 // How far a probe in front and the one beyond may tell.
 float probegiPair(ivec3 cell, ProbegiFront front) {
     const float outside = probegiOutside(cell + front.step);
-    if (probegiVolume.guard == kGuardNone) return outside;
-    const vec2 moments = probegiMoments(cell, vec3(front.step));
+    if (probegiField.guard == kGuardNone) return outside;
+    const vec2 moments = probegiMoments(probeSlot(probegiVolume, cell), vec3(front.step));
     return outside * chebyshevWeight(moments.x, moments.y,
                                      probegiVolume.spacing[front.axis] * probegiVolume.inverseMaxDistance,
-                                     probegiVolume.rules);
+                                     probegiField.rules);
 }
 
 // Irradiance E in W m^-2 at a point of a surface that faces `normal`, seen from the direction `viewer` (both unit; zero
@@ -147,15 +158,15 @@ float probegiPair(ivec3 cell, ProbegiFront front) {
 vec3 probegiIrradiance(vec3 point, vec3 normal, vec3 viewer) {
     const vec3 toViewer = viewerOf(viewer, normal);
     const ivec3 counts = probegiVolume.counts;
-    const int rules = probegiVolume.rules;
+    const int rules = probegiField.rules;
     const float minSpacing = probegiVolume.minSpacing;
     const vec3 position = clampToGrid(point, probegiVolume.origin, probegiVolume.spacing, counts);
-    const vec3 bias = visibilityBias(normal, toViewer, minSpacing, probegiVolume.selfShadowBias, rules);
-    const vec3 moved = position + cageBias(normal, toViewer, minSpacing, probegiVolume.selfShadowBias, rules);
+    const vec3 bias = visibilityBias(normal, toViewer, minSpacing, probegiField.selfShadowBias, rules);
+    const vec3 moved = position + cageBias(normal, toViewer, minSpacing, probegiField.selfShadowBias, rules);
     const vec3 local = gridCoordinates(moved, probegiVolume.origin, probegiVolume.inverseSpacing);
     const vec3 base = cageBase(local, counts);
     const vec3 alpha = cageAlpha(local, base);
-    const vec2 texel = octTexelPosition(octEncode(normal), probegiVolume.irradianceTexels);
+    const vec2 texel = octTexelPosition(octEncode(normal), probegiField.irradianceTexels);
     const ProbegiFront front = probegiFront(normal, ivec3(base));
     // The pair's weight is that of the probe in front, without the share that the point's depth gives to its layer.
     const float alongAxis = trilinearFactor(float(front.side), alpha[front.axis]);

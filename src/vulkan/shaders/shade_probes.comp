@@ -4,6 +4,7 @@
 #include "direct_light.glsl"
 #include "ray_data.glsl"
 #include "rays.glsl"
+#include "tasks.glsl"
 #include "volume.glsl"
 
 #include "kernels/shade/bounce.h"
@@ -56,17 +57,17 @@ RayLight shade(Ray ray, Hit hit, bool isFixed) {
 
 void main() {
     const uint index = globalIndex();
-    if (index >= uint(push.probes) * uint(push.rays + push.fixedRayCount)) return;
-    const int probe = int(index % uint(push.probes));
-    const int rayIndex = int(index / uint(push.probes));
+    Tasks list = Tasks(push.tasks);
+    const uint tasks = list.counts.tasks;
+    if (index >= tasks * uint(push.rays + push.fixedRayCount)) return;
+    const int task = int(index % tasks);
+    const int rayIndex = int(index / tasks);
     useLighting(push.lighting);
-    const vec3 origin =
-        probePlace(gpuProbeCell(probe, probegiVolume.counts), probegiVolume.origin, probegiVolume.spacing);
-    const Ray ray = Ray(origin, 0.0, Vec3s(push.directions).at[rayIndex], kNoHitDistance);
+    const Ray ray = Ray(list.at[task].origin, 0.0, Vec3s(push.directions).at[rayIndex], kNoHitDistance);
     const RayLight light = shade(ray, Hits(push.hits).at[index], rayIndex >= push.rays);
     if (rayIndex < push.rays)
-        RayData(push.rayData).at[probe * push.rays + rayIndex] = datumOf(light);
+        RayData(push.rayData).at[task * push.rays + rayIndex] = datumOf(light);
     else
-        FixedRays(push.fixedRays).at[probe * push.fixedRayCount + rayIndex - push.rays] = FixedRayDatum(
+        FixedRays(push.fixedRays).at[task * push.fixedRayCount + rayIndex - push.rays] = FixedRayDatum(
             luminance(light.direct), luminance(light.bounced), light.back ? -light.distance : light.distance);
 }

@@ -1,4 +1,4 @@
-#include "vulkan/field/volume_mirror.h"
+#include "vulkan/field/field_mirror.h"
 
 #include <glm/common.hpp>
 
@@ -44,7 +44,7 @@ auto bilinear(glm::vec2 at, int size, const Texel& texel) {
 
 }  // namespace
 
-VolumeMirror::VolumeMirror(const VolumePasses& passes) : m_passes(passes), m_desc(passes.desc()) {
+FieldMirror::FieldMirror(const FieldPasses& passes) : m_passes(passes), m_desc(passes.desc()) {
     const Device::Impl& device = passes.device().impl();
     const auto readback = [&](std::size_t bytes) {
         return Buffer(device, "mirror", bytes, vk::BufferUsageFlagBits::eTransferDst, MemoryUse::readback);
@@ -69,24 +69,24 @@ VolumeMirror::VolumeMirror(const VolumePasses& passes) : m_passes(passes), m_des
     m_shares.assign(shares.begin(), shares.end());
 }
 
-std::size_t VolumeMirror::texelIndex(const Image& image, int texels, int probe, glm::ivec2 texel) const {
-    const glm::ivec3 cell = kernels::gpuProbeCell(probe, m_desc.grid.counts);
-    const glm::ivec2 at = kernels::gpuTileOrigin(cell, texels) + texel;
-    return (std::size_t(cell.z) * image.size().height + std::size_t(at.y)) * image.size().width + std::size_t(at.x);
+std::size_t FieldMirror::texelIndex(const Image& image, int texels, int probe, glm::ivec2 texel) const {
+    const glm::ivec3 tile = kernels::poolTile(m_passes.tiles(), probe);
+    const glm::ivec2 at = kernels::tileOrigin(tile, texels) + texel;
+    return (std::size_t(tile.z) * image.size().height + std::size_t(at.y)) * image.size().width + std::size_t(at.x);
 }
 
-glm::vec3 VolumeMirror::irradianceTexel(int probe, glm::ivec2 texel) const {
+glm::vec3 FieldMirror::irradianceTexel(int probe, glm::ivec2 texel) const {
     const std::uint16_t* halves =
         m_irradiance.data() + 4 * texelIndex(m_passes.irradiance(), m_desc.irradianceTexels, probe, texel);
     return {kernels::unpackHalf(halves[0]), kernels::unpackHalf(halves[1]), kernels::unpackHalf(halves[2])};
 }
 
-glm::vec2 VolumeMirror::visibilityTexel(int probe, glm::ivec2 texel) const {
+glm::vec2 FieldMirror::visibilityTexel(int probe, glm::ivec2 texel) const {
     return kernels::unpackMoments(
         m_visibility[texelIndex(m_passes.visibility(), m_desc.visibilityTexels, probe, texel)]);
 }
 
-glm::vec3 VolumeMirror::probeIrradiance(int probe, glm::vec3 normal) const {
+glm::vec3 FieldMirror::probeIrradiance(int probe, glm::vec3 normal) const {
     const int size = m_desc.irradianceTexels;
     const glm::vec3 stored = bilinear(kernels::octTexelPosition(kernels::octEncode(normal), size), size,
                                       [&](glm::ivec2 texel) { return irradianceTexel(probe, texel); });
@@ -94,15 +94,15 @@ glm::vec3 VolumeMirror::probeIrradiance(int probe, glm::vec3 normal) const {
                                     kernels::decodeIrradiance(stored.z));
 }
 
-glm::vec2 VolumeMirror::probeDistanceMoments(int probe, glm::vec3 direction) const {
+glm::vec2 FieldMirror::probeDistanceMoments(int probe, glm::vec3 direction) const {
     const int size = m_desc.visibilityTexels;
-    const float d = m_passes.layout().maxDistance;
+    const float d = m_passes.volumes()[volumeOf(m_passes.volumes(), probe)].maxDistance;
     return bilinear(kernels::octTexelPosition(kernels::octEncode(direction), size), size,
                     [&](glm::ivec2 texel) { return visibilityTexel(probe, texel); }) *
            glm::vec2(d, d * d);
 }
 
-std::vector<float> VolumeMirror::brightness() const {
+std::vector<float> FieldMirror::brightness() const {
     const int size = m_desc.irradianceTexels;
     std::vector<float> result(m_passes.layout().probes);
     for (std::size_t probe = 0; probe < result.size(); ++probe) {

@@ -1,12 +1,13 @@
+#include "vulkan/field/field_passes.h"
+
 #include <limits>
 
 #include "core/sentence.h"
 #include "field/probe_emitters.h"
-#include "kernels/abi/gpu_passes.h"
 #include "kernels/lookup/probe_query.h"
 #include "kernels/probe/solid_probe.h"
 #include "vulkan/device/errors.h"
-#include "vulkan/field/probe_volume_impl.h"
+#include "vulkan/field/pool_tiles.h"
 #include "vulkan/scene/gpu_lighting_impl.h"
 #include "vulkan/scene/gpu_scene_impl.h"
 
@@ -15,32 +16,27 @@ namespace probegi::vulkan {
 namespace {
 
 // Specialisation constants of blend_irradiance.comp.
-std::array<std::uint32_t, 1> irradianceConstants(const FieldDesc& desc) {
-    return {desc.backfaceRule == BackfaceRule::excluded ? 1u : 0u};
+std::array<std::uint32_t, 1> irradianceConstants(const FieldSettings& settings) {
+    return {settings.backfaceRule == BackfaceRule::excluded ? 1u : 0u};
 }
 
-std::uint32_t groups(std::size_t count, int size) {
-    return std::uint32_t((count + std::size_t(size) - 1) / std::size_t(size));
-}
-
-// An atlas for maps of `texels` a side: a layer for each z, tiles with borders.
-Image makeAtlas(const Device& device, const char* name, vk::Format format, glm::ivec3 counts, int texels) {
+// Of both atlases, which have the same tiles.
+PoolShape poolShape(const Device& device, const FieldDesc& desc) {
     const auto& limits = device.impl().limits;
-    const std::int64_t tile = texels + 2;
-    if (counts.x * tile > limits.maxImageDimension2D || counts.y * tile > limits.maxImageDimension2D)
-        throw Failure(ErrorCode::unsupported,
-                      sentence(counts.x, "x", counts.y,
-                               " probes along x and y do not fit into this device's images; with maps of ", texels,
-                               " texels each axis may have ", limits.maxImageDimension2D / tile));
-    if (std::uint32_t(counts.z) > limits.maxImageArrayLayers)
-        throw Failure(ErrorCode::unsupported,
-                      sentence(counts.z, " probes along z do not fit into this device's images; it has ",
-                               limits.maxImageArrayLayers, " layers"));
-    return {device.impl(),
-            name,
-            format,
-            {std::uint32_t(counts.x * tile), std::uint32_t(counts.y * tile)},
-            std::uint32_t(counts.z)};
+    const std::uint32_t tile = std::uint32_t(std::max(desc.irradianceTexels, desc.visibilityTexels) + 2);
+    const std::size_t slots = std::size_t(probeCount(desc));
+    const PoolShape shape = shapeOfPool(slots, tile, limits.maxImageDimension2D, limits.maxImageArrayLayers);
+    if (shape.layers == 0)
+        throw Failure(
+            ErrorCode::unsupported,
+            sentence(slots, " probes do not fit into this device's images; with maps of ", tile - 2,
+                     " texels it holds ", mostSlots(tile, limits.maxImageDimension2D, limits.maxImageArrayLayers)));
+    return shape;
+}
+
+Image makeAtlas(const Device& device, const char* name, vk::Format format, const PoolShape& shape, int texels) {
+    const std::uint32_t tile = std::uint32_t(texels + 2);
+    return {device.impl(), name, format, {tile << shape.tiles.rowShift, tile * shape.rows}, shape.layers};
 }
 
 // Shaders count rays and their buffers' entries in 31 bits.
@@ -56,24 +52,26 @@ FieldLayout checkedLayout(const FieldDesc& desc) {
 
 }  // namespace
 
-VolumePasses::VolumePasses(const Device& device, const FieldDesc& desc)
+FieldPasses::FieldPasses(const Device& device, const FieldDesc& desc)
     : m_device(device),
       m_desc(desc),
       m_layout(checkedLayout(desc)),
-      m_irradiance(makeAtlas(device, "irradiance", kIrradianceFormat, desc.grid.counts, desc.irradianceTexels)),
-      m_visibility(makeAtlas(device, "visibility", kVisibilityFormat, desc.grid.counts, desc.visibilityTexels)),
-      m_constants(device.impl(), "volume constants", sizeof(kernels::GpuVolume),
+      m_volumes(makeVolumes(desc)),
+      m_constants(device.impl(), "field constants", sizeof(kernels::FieldConstants),
                   vk::BufferUsageFlagBits::eUniformBuffer | vk::BufferUsageFlagBits::eTransferDst),
       m_states(device.impl(), "probe states", sizeof(std::uint32_t) + m_layout.probes * sizeof(float),
                vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst |
                    vk::BufferUsageFlagBits::eTransferSrc),
+      m_tasks(device.impl(), "tasks", sizeof(kernels::GpuTaskCounts) + m_layout.probes * sizeof(kernels::GpuTask),
+              kAddressed | vk::BufferUsageFlagBits::eIndirectBuffer),
       m_sides(device.impl(), "probe sides", m_layout.probes * sizeof(kernels::ProbeSides),
               kAddressed | vk::BufferUsageFlagBits::eTransferDst),
       m_filters(device.impl(), "temporal filters", m_layout.probes * sizeof(kernels::PackedProbeFilter),
                 kAddressed | vk::BufferUsageFlagBits::eTransferDst),
       m_steps(device.impl(), "temporal steps", m_layout.probes * sizeof(kernels::GpuProbeStep), kAddressed),
       m_changes(device.impl(), "texel changes",
-                m_layout.probes * groups(m_layout.irradianceTexels, kernels::kIrradianceGroupTexels) *
+                m_layout.probes *
+                    kernels::groupsOf(std::uint32_t(m_layout.irradianceTexels), kernels::kIrradianceGroupTexels) *
                     sizeof(kernels::TexelChange),
                 kAddressed),
       m_directions(device.impl(), "ray directions", (m_layout.rays + std::size_t(desc.fixedRays)) * sizeof(glm::vec3),
@@ -84,30 +82,33 @@ VolumePasses::VolumePasses(const Device& device, const FieldDesc& desc)
                        m_layout.visibilityTexels * sizeof(kernels::GpuTexelRays), kAddressed),
       m_visibilityWeights(device.impl(), "visibility weights",
                           m_layout.rays * m_layout.visibilityTexels * sizeof(kernels::GpuRayWeight), kAddressed) {
+    const PoolShape shape = poolShape(device, desc);
+    m_tiles = shape.tiles;
+    m_irradiance = makeAtlas(device, "irradiance", kIrradianceFormat, shape, desc.irradianceTexels);
+    m_visibility = makeAtlas(device, "visibility", kVisibilityFormat, shape, desc.visibilityTexels);
     writeSet();
 }
 
-kernels::GpuVolume VolumePasses::constants(LeakGuard guard) const {
-    const GridDesc& grid = m_desc.grid;
+kernels::FieldConstants FieldPasses::constants(const FieldSettings& settings) const {
     const auto texelSize = [](const Image& image) {
         return glm::vec2(1.0f / float(image.size().width), 1.0f / float(image.size().height));
     };
-    return {.origin = grid.origin,
-            .minSpacing = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z}),
-            .spacing = grid.spacing,
-            .selfShadowBias = m_desc.selfShadowBias,
-            .inverseSpacing = 1.0f / grid.spacing,
-            .inverseMaxDistance = 1.0f / m_layout.maxDistance,
-            .counts = grid.counts,
-            .guard = guard == LeakGuard::none ? kernels::kGuardNone : kernels::kGuardMoments,
-            .irradianceTexelSize = texelSize(m_irradiance),
-            .visibilityTexelSize = texelSize(m_visibility),
-            .irradianceTexels = m_desc.irradianceTexels,
-            .visibilityTexels = m_desc.visibilityTexels,
-            .rules = m_desc.rules == FieldRules::paper ? kernels::kRulesPaper : kernels::kRulesMeasured};
+    kernels::FieldConstants c{
+        .volumeCount = int(m_volumes.size()),
+        .guard = settings.guard == LeakGuard::none ? kernels::kGuardNone : kernels::kGuardMoments,
+        .rules = m_desc.rules == FieldRules::paper ? kernels::kRulesPaper : kernels::kRulesMeasured,
+        .selfShadowBias = settings.selfShadowBias,
+        .irradianceTexels = m_desc.irradianceTexels,
+        .visibilityTexels = m_desc.visibilityTexels,
+        .tiles = m_tiles,
+        .irradianceTexelSize = texelSize(m_irradiance),
+        .visibilityTexelSize = texelSize(m_visibility),
+        .volumes = {}};
+    std::copy(m_volumes.begin(), m_volumes.end(), c.volumes);
+    return c;
 }
 
-void VolumePasses::writeSet() {
+void FieldPasses::writeSet() {
     const Device::Impl& device = m_device.impl();
     const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eUniformBuffer, 1},
                                             {vk::DescriptorType::eCombinedImageSampler, 2},
@@ -126,7 +127,7 @@ void VolumePasses::writeSet() {
         vk::WriteDescriptorSet(set(), 5, 0, 1, vk::DescriptorType::eStorageImage, &images[1]), {});
 }
 
-void VolumePasses::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBinding) const {
+void FieldPasses::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBinding) const {
     const Device::Impl& device = m_device.impl();
     const vk::Sampler sampler = *device.pipelines->layout().sampler;
     const vk::DescriptorBufferInfo constants(m_constants.handle(), 0, VK_WHOLE_SIZE);
@@ -141,15 +142,16 @@ void VolumePasses::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBi
     device.device.updateDescriptorSets(writes, {});
 }
 
-FieldMemory VolumePasses::memory() const noexcept {
+FieldMemory FieldPasses::memory() const noexcept {
     return {m_irradiance.bytes(), m_visibility.bytes(),
-            m_states.bytes() + m_sides.bytes() + m_filters.bytes() + m_constants.bytes() + m_directions.bytes(),
+            m_states.bytes() + m_tasks.bytes() + m_sides.bytes() + m_filters.bytes() + m_constants.bytes() +
+                m_directions.bytes(),
             m_irradianceWeights.bytes() + m_visibilityRays.bytes() + m_visibilityWeights.bytes() + m_hits.bytes() +
                 m_rayData.bytes() + m_fixedRays.bytes() + m_emitterLights.bytes() + m_steps.bytes() +
                 m_changes.bytes()};
 }
 
-void VolumePasses::makeRayBuffers(int looks) {
+void FieldPasses::makeRayBuffers(int looks) {
     if (looks > 0 && !m_emitterLights)
         m_emitterLights = Buffer(m_device.impl(), "emitter lights",
                                  m_layout.probes * std::size_t(looks) * sizeof(kernels::EmitterLight), kAddressed);
@@ -163,7 +165,7 @@ void VolumePasses::makeRayBuffers(int looks) {
     m_fixedRays = std::move(fixedRays);
 }
 
-void VolumePasses::recordClear(const Recorder& recorder, LeakGuard guard) {
+void FieldPasses::recordClear(const Recorder& recorder, const FieldSettings& settings) {
     // After whatever used the probes before: their content is dropped, but a layout change is a write too.
     recorder.orderAll();
     const auto used = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite;
@@ -182,20 +184,46 @@ void VolumePasses::recordClear(const Recorder& recorder, LeakGuard guard) {
     recorder.fill(m_states, 0);
     recorder.fill(m_filters, 0);
     recorder.fill(m_sides, 0);
-    m_recordedGuard = guard;
-    recorder.write(m_constants, bytesOf(constants(guard)));
+    m_recordedSettings = settings;
+    recorder.write(m_constants, bytesOf(constants(settings)));
     recorder.orderAll();
 }
 
-void VolumePasses::recordGuard(const Recorder& recorder, const FieldDesc& desc) {
-    if (desc.guard == m_recordedGuard) return;
-    m_recordedGuard = desc.guard;
+void FieldPasses::recordSettings(const Recorder& recorder, const FieldSettings& settings) {
+    if (settings == m_recordedSettings) return;
+    m_recordedSettings = settings;
     recorder.orderAll();
-    recorder.write(m_constants, bytesOf(constants(desc.guard)));
+    recorder.write(m_constants, bytesOf(constants(settings)));
     recorder.orderAll();
 }
 
-void VolumePasses::recordWeights(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler) {
+// The list where it is another one, then what work it is.
+void FieldPasses::recordTasks(const Recorder& recorder, const UpdateFrame& frame, int looks) {
+    const std::size_t rays = frame.directions.size() + frame.fixedDirections.size();
+    recorder.push(kernels::TasksPush{.tasks = packAddress(m_tasks.address()),
+                                     .count = std::uint32_t(frame.tasks.size()),
+                                     .rays = std::uint32_t(rays),
+                                     .looks = std::uint32_t(looks),
+                                     .irradianceTexels = std::uint32_t(m_layout.irradianceTexels)});
+    if (m_recordedTasks != frame.taskList) {
+        m_recordedTasks = frame.taskList;
+        if (frame.whole()) {
+            recorder.dispatchOver("all_tasks", frame.tasks.size());
+            recorder.computeToCompute();
+        } else {
+            const auto count = std::uint32_t(frame.tasks.size());
+            recorder.write(m_tasks, bytesOf(count));
+            recorder.write(m_tasks, std::as_bytes(frame.tasks), sizeof(kernels::GpuTaskCounts));
+            recorder.transferToCompute();
+        }
+    }
+    recorder.dispatch("count_tasks", 1);
+    if (!frame.whole()) recorder.fill(m_steps, 0);  // no lag of probes that stand still
+    recorder.transferToCompute();
+    recorder.computeToDispatch();
+}
+
+void FieldPasses::recordWeights(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler) {
     const PassScope scope(recorder, m_device.impl(), profiler, "weights");
     recorder.push(kernels::WeightsPush{.directions = packAddress(m_directions.address()),
                                        .irradianceWeights = packAddress(m_irradianceWeights.address()),
@@ -206,58 +234,56 @@ void VolumePasses::recordWeights(const Recorder& recorder, const UpdateFrame& fr
                                        .visibilityTexels = int(m_layout.visibilityTexels),
                                        .irradianceSize = frame.desc.irradianceTexels,
                                        .visibilitySize = frame.desc.visibilityTexels,
-                                       .visibilityExponent = frame.desc.visibilityExponent,
+                                       .visibilityExponent = frame.settings.visibilityExponent,
                                        .rules = int(frame.desc.rules)});
     recorder.dispatchOver("blend_weights", m_layout.irradianceTexels + m_layout.visibilityTexels);
 }
 
-void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
-                               const GpuLighting& lighting, const RayAddresses& data, Profiler* profiler) {
-    const std::uint64_t rays = std::uint64_t(m_layout.probes) * (m_layout.rays + frame.fixedDirections.size());
+void FieldPasses::recordTrace(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
+                              const GpuLighting& lighting, const RayAddresses& data, Profiler* profiler) {
     const std::string tracer = scene.impl().shaderSuffix();
     recorder.bindScene(scene.impl().set());
-    recorder.push(kernels::TracePush{.directions = packAddress(m_directions.address()),
+    recorder.push(kernels::TracePush{.tasks = packAddress(m_tasks.address()),
+                                     .directions = packAddress(m_directions.address()),
                                      .hits = packAddress(m_hits.address()),
                                      .rayData = packAddress(m_rayData.address()),
                                      .lighting = packAddress(lighting.impl().address()),
                                      .fixedRays = packAddress(m_fixedRays.address()),
                                      .rays = int(m_layout.rays),
                                      .fixedRayCount = int(frame.fixedDirections.size()),
-                                     .probes = int(m_layout.probes),
                                      .bounces = frame.bounces ? 1 : 0,
                                      .looks = data.looks,
                                      .emitterLights = packAddress(data.emitterLights),
                                      .emitterSeed = frame.raySeed});
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "trace");
-        recorder.dispatchOver("trace_probes" + tracer, rays);
+        recorder.dispatchIndirect("trace_probes" + tracer, m_tasks, offsetof(kernels::GpuTaskCounts, perRay));
     }
     recorder.computeToCompute();
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "shade");
-        recorder.dispatchOver("shade_probes" + tracer, rays);
+        recorder.dispatchIndirect("shade_probes" + tracer, m_tasks, offsetof(kernels::GpuTaskCounts, perRay));
     }
     if (data.looks > 0) {
         const PassScope scope(recorder, m_device.impl(), profiler, "emitters");
-        recorder.dispatchOver("look_at_emitters" + tracer, m_layout.probes * std::uint64_t(data.looks));
+        recorder.dispatchIndirect("look_at_emitters" + tracer, m_tasks, offsetof(kernels::GpuTaskCounts, perLook));
     }
     recorder.computeToCompute();
 }
 
-void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
-                               Profiler* profiler) {
-    recorder.push(kernels::BlendPush{.rayData = packAddress(data.update),
+void FieldPasses::recordBlend(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
+                              Profiler* profiler) {
+    recorder.push(kernels::BlendPush{.tasks = packAddress(m_tasks.address()),
+                                     .rayData = packAddress(data.update),
                                      .sides = packAddress(m_sides.address()),
                                      .irradianceWeights = packAddress(m_irradianceWeights.address()),
                                      .visibilityRays = packAddress(m_visibilityRays.address()),
                                      .visibilityWeights = packAddress(m_visibilityWeights.address()),
                                      .rays = int(m_layout.rays),
-                                     .probes = int(m_layout.probes),
-                                     .maxDistance = m_layout.maxDistance,
                                      .irradianceHysteresis = frame.hysteresis.irradiance,
                                      .visibilityHysteresis = frame.hysteresis.visibility,
-                                     .significantChange = frame.desc.significantChange,
-                                     .newDistribution = frame.desc.newDistribution,
+                                     .significantChange = frame.settings.significantChange,
+                                     .newDistribution = frame.settings.newDistribution,
                                      .ditherSeed = frame.ditherSeed,
                                      .linear = frame.linear ? 1 : 0,
                                      .emitterLights = packAddress(data.emitterLights),
@@ -266,96 +292,95 @@ void VolumePasses::recordBlend(const Recorder& recorder, const UpdateFrame& fram
                                      .changes = packAddress(m_changes.address())});
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "blend irradiance");
-        recorder.dispatchOver("blend_irradiance", groups(m_layout.probes, kernels::kIrradianceGroupProbes),
-                              groups(m_layout.irradianceTexels, kernels::kIrradianceGroupTexels),
-                              irradianceConstants(frame.desc));
+        recorder.dispatchIndirect("blend_irradiance", m_tasks, offsetof(kernels::GpuTaskCounts, irradiance),
+                                  irradianceConstants(frame.settings));
     }
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "blend visibility");
-        recorder.dispatchOver("blend_visibility", groups(m_layout.probes, kernels::kVisibilityGroupProbes), 1);
+        recorder.dispatchIndirect("blend_visibility", m_tasks, offsetof(kernels::GpuTaskCounts, visibility));
     }
 }
 
-void VolumePasses::recordWindows(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
-                                 Profiler* profiler) {
+void FieldPasses::recordWindows(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
+                                Profiler* profiler) {
     if (!frame.windows) return;
     const PassScope scope(recorder, m_device.impl(), profiler, "windows");
     recorder.push(filterPush(frame, data));
-    recorder.dispatchOver("probe_lag", m_layout.probes);
+    recorder.dispatchIndirect("probe_lag", m_tasks, offsetof(kernels::GpuTaskCounts, perTask));
     recorder.computeToCompute();
-    recorder.dispatchOver("probe_windows", m_layout.probes);
+    recorder.dispatchIndirect("probe_windows", m_tasks, offsetof(kernels::GpuTaskCounts, perTask));
     recorder.computeToCompute();
 }
 
-void VolumePasses::recordFilter(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
-                                Profiler* profiler) {
+void FieldPasses::recordFilter(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
+                               Profiler* profiler) {
     recorder.computeToCompute();
     const PassScope scope(recorder, m_device.impl(), profiler, "filter");
     recorder.push(filterPush(frame, data));
-    recorder.dispatchOver("probe_filter", m_layout.probes);
+    recorder.dispatchIndirect("probe_filter", m_tasks, offsetof(kernels::GpuTaskCounts, perTask));
 }
 
-kernels::FilterPush VolumePasses::filterPush(const UpdateFrame& frame, const RayAddresses& data) const {
+kernels::FilterPush FieldPasses::filterPush(const UpdateFrame& frame, const RayAddresses& data) const {
     const bool own = frame.fixedDirections.empty();
-    return {.steps = packAddress(m_steps.address()),
+    return {.tasks = packAddress(m_tasks.address()),
+            .steps = packAddress(m_steps.address()),
             .filters = packAddress(m_filters.address()),
             .changes = packAddress(m_changes.address()),
             .rayData = packAddress(own ? data.update : data.fixed),
             .directions = packAddress(m_directions.address() + m_layout.rays * sizeof(glm::vec3)),
             .rays = int(own ? m_layout.rays : frame.fixedDirections.size()),
-            .probes = int(m_layout.probes),
             .ownRays = own ? 1 : 0,
             .texels = int(m_layout.irradianceTexels),
-            .maxDistance = m_layout.maxDistance,
             .longestWindow = frame.windows ? frame.longestWindow : 1.0f / (1.0f - frame.hysteresis.irradiance),
             .longestVisibilityWindow = frame.longestVisibilityWindow,
             .ditherSeed = frame.ditherSeed,
             .forget = frame.windows ? 0 : 1};
 }
 
-void VolumePasses::recordSolidProbes(const Recorder& recorder, Profiler* profiler) {
+void FieldPasses::recordSolidProbes(const Recorder& recorder, Profiler* profiler) {
     const PassScope scope(recorder, m_device.impl(), profiler, "solid probes");
-    recorder.push(kernels::SolidPush{.sides = packAddress(m_sides.address()), .probes = int(m_layout.probes)});
-    recorder.dispatchOver("find_solid_probes", m_layout.probes);
+    recorder.push(kernels::SolidPush{.tasks = packAddress(m_tasks.address()), .sides = packAddress(m_sides.address())});
+    recorder.dispatchIndirect("find_solid_probes", m_tasks, offsetof(kernels::GpuTaskCounts, perTask));
 }
 
-void VolumePasses::beginUpdate(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler) {
+void FieldPasses::beginUpdate(const Recorder& recorder, const UpdateFrame& frame, int looks, Profiler* profiler) {
     // Whatever can fail comes first: an update is recorded whole or not at all.
     PipelineStore& pipelines = *m_device.impl().pipelines;
-    for (const char* shader : {"blend_weights", "probe_lag", "probe_windows", "probe_filter"}) pipelines.get(shader);
-    pipelines.get("blend_visibility");
-    pipelines.get("find_solid_probes");
-    pipelines.get("blend_irradiance", irradianceConstants(frame.desc));
-    recordGuard(recorder, frame.desc);
+    for (const char* shader : {"all_tasks", "count_tasks", "blend_weights", "probe_lag", "probe_windows",
+                               "probe_filter", "blend_visibility", "find_solid_probes"})
+        pipelines.get(shader);
+    pipelines.get("blend_irradiance", irradianceConstants(frame.settings));
+    recordSettings(recorder, frame.settings);
     recorder.orderAll();
     recorder.write(m_directions, std::as_bytes(frame.directions));
     recorder.write(m_directions, std::as_bytes(frame.fixedDirections), frame.directions.size_bytes());
     recorder.transferToCompute();
     recorder.bindVolume(set());
+    recordTasks(recorder, frame, looks);
     recordWeights(recorder, frame, profiler);
 }
 
-void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
-                                const GpuLighting& lighting, Profiler* profiler) {
+void FieldPasses::recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
+                               const GpuLighting& lighting, Profiler* profiler) {
     const int looks = scene.impl().emitters.empty() ? 0 : emitterLooks(frame.desc);
     makeRayBuffers(looks);
     for (const char* shader : {"trace_probes", "shade_probes", "look_at_emitters"})
         m_device.impl().pipelines->get(shader + scene.impl().shaderSuffix());
     const RayAddresses data{m_rayData.address(), m_fixedRays.address(), m_emitterLights.address(), looks};
-    beginUpdate(recorder, frame, profiler);
+    beginUpdate(recorder, frame, looks, profiler);
     recordTrace(recorder, frame, scene, lighting, data, profiler);
     recordRest(recorder, frame, data, profiler);
 }
 
-void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
-                                Profiler* profiler) {
-    beginUpdate(recorder, frame, profiler);
+void FieldPasses::recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
+                               Profiler* profiler) {
+    beginUpdate(recorder, frame, data.looks, profiler);
     recorder.computeToCompute();
     recordRest(recorder, frame, data, profiler);
 }
 
-void VolumePasses::recordRest(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
-                              Profiler* profiler) {
+void FieldPasses::recordRest(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
+                             Profiler* profiler) {
     recordWindows(recorder, frame, data, profiler);
     recordBlend(recorder, frame, data, profiler);
     recordFilter(recorder, frame, data, profiler);
@@ -363,9 +388,9 @@ void VolumePasses::recordRest(const Recorder& recorder, const UpdateFrame& frame
     recorder.orderAll();
 }
 
-void VolumePasses::recordQuery(const Recorder& recorder, const FieldDesc& desc, VkDeviceAddress queries,
-                               VkDeviceAddress irradiance, std::uint32_t count, Profiler* profiler) {
-    recordGuard(recorder, desc);
+void FieldPasses::recordQuery(const Recorder& recorder, const FieldSettings& settings, VkDeviceAddress queries,
+                              VkDeviceAddress irradiance, std::uint32_t count, Profiler* profiler) {
+    recordSettings(recorder, settings);
     const PassScope scope(recorder, m_device.impl(), profiler, "query");
     recorder.bindVolume(set());
     recorder.push(

@@ -3,15 +3,15 @@
 #include <vector>
 
 #include "vulkan/device/exchange.h"
-#include "vulkan/field/probe_volume_impl.h"
+#include "vulkan/field/gpu_field_impl.h"
 
 namespace probegi::vulkan {
 
 /// A volume's atlases and states as the CPU reads them back: for looking at single probes, not for rendering. Throws.
-class VolumeMirror {
+class FieldMirror {
 public:
     /// Copies everything from the GPU and waits.
-    explicit VolumeMirror(const VolumePasses& passes);
+    explicit FieldMirror(const FieldPasses& passes);
 
     /// Encoded irradiance of an interior or border texel, -1 <= x, y <= size.
     glm::vec3 irradianceTexel(int probe, glm::ivec2 texel) const;
@@ -28,7 +28,7 @@ public:
 private:
     std::size_t texelIndex(const Image& image, int texels, int probe, glm::ivec2 texel) const;
 
-    const VolumePasses& m_passes;
+    const FieldPasses& m_passes;
     FieldDesc m_desc;
     std::vector<std::uint16_t> m_irradiance;  // four halves a texel
     std::vector<std::uint32_t> m_visibility;

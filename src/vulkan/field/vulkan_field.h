@@ -6,23 +6,23 @@
 #include "field/field_backend.h"
 #include "kernels/light/emitter_sampling.h"
 #include "vulkan/device/exchange.h"
-#include "vulkan/field/volume_mirror.h"
+#include "vulkan/field/field_mirror.h"
 #include "vulkan/tracers/gpu_tracer.h"
 
 namespace probegi::vulkan {
 
 /// A field whose probes and passes are on the GPU. Every call records, submits and waits.
-class GpuField final : public FieldBackend {
+class VulkanField final : public FieldBackend {
 public:
     /// The desc must be valid. Throws.
-    GpuField(const Context& context, const Device& device, const FieldDesc& desc);
+    VulkanField(const Context& context, const Device& device, const FieldDesc& desc, const FieldSettings& settings);
 
     Result<UpdateTimes> update(const UpdateFrame& frame, std::span<const RayDatum> rayData,
                                std::span<const FixedRayDatum> fixedRays) override;
     Result<UpdateTimes> update(const UpdateFrame& frame, const Tracer& tracer, const Lighting& lighting) override;
-    Result<void> irradiance(const FieldDesc& desc, std::span<const FieldQuery> queries,
+    Result<void> irradiance(const FieldSettings& settings, std::span<const FieldQuery> queries,
                             std::span<glm::vec3> out) const override;
-    glm::vec3 irradiance(const FieldDesc& desc, const FieldQuery& query) const noexcept override;
+    glm::vec3 irradiance(const FieldSettings& settings, const FieldQuery& query) const noexcept override;
     Result<std::vector<float>> brightness() const override;
 
     FieldMemory memory() const noexcept override;
@@ -32,7 +32,7 @@ public:
     glm::vec2 probeDistanceMoments(int probe, glm::vec3 direction) const noexcept override;
 
     const Device& device() const noexcept { return m_device; }
-    VolumePasses& passes() const noexcept { return m_passes; }
+    FieldPasses& passes() const noexcept { return m_passes; }
     std::vector<PassTime> passTimes() const;
 
 private:
@@ -51,10 +51,10 @@ private:
     Context m_context;
     Device m_device;
     mutable std::mutex m_mutex;  // queries may come from several threads
-    mutable VolumePasses m_passes;
+    mutable FieldPasses m_passes;
     mutable Exchange m_exchange;
     mutable std::optional<Profiler> m_profiler;
-    mutable std::optional<VolumeMirror> m_mirror;  // empty: out of date
+    mutable std::optional<FieldMirror> m_mirror;  // empty: out of date
     mutable std::optional<Lighting> m_lightingSource;
     mutable std::optional<GpuLighting> m_lighting;
     std::vector<RayDatum> m_rayData;         // of rays that another backend's tracer traced

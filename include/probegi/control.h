@@ -1,0 +1,130 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "probegi/export.h"
+#include "probegi/result.h"
+#include "probegi/volume.h"
+
+namespace probegi {
+
+/// The second axis of the pipeline: which of the eight surrounding probes a point may use.
+enum class LeakGuard : std::uint8_t {
+    none,     ///< trilinear and backface weights only: the leaking baseline
+    moments,  ///< DDGI: Chebyshev test on distance moments (section 2.2 and 4.1)
+};
+
+/// What an update ray that hits the back of a single-sided surface does to irradiance (section 4.1).
+enum class BackfaceRule : std::uint8_t {
+    zeroSample,  ///< counts as a sample of radiance 0 (the paper)
+    excluded,    ///< is left out of the average
+};
+
+/// Which rules a field follows where measurements led away from the paper (docs/accuracy.md has the list).
+enum class FieldRules : std::uint8_t {
+    measured,  ///< what came out nearer to the path tracer
+    paper,     ///< exactly what sections 2 and 4 of the paper say
+};
+
+/// What a Field is made of; fixed once it is made.
+struct FieldDesc {
+    /// Its probes, 1..32 volumes. All have the same maps and share the rays of an update. Probes are numbered through:
+    /// slot 0 is the first probe of the first volume, the second volume follows the last probe of the first. Where
+    /// volumes overlap, the first one answers.
+    std::vector<VolumeDesc> volumes{VolumeDesc{}};
+    int raysPerProbe = 144;     ///< update rays a probe and frame, 8..4096
+    int fixedRays = 16;         ///< more rays a probe and update, always along the same directions: they tell change
+                                ///< from noise (FieldRules::measured only); 0..256; 0: change is not looked for
+    int irradianceTexels = 8;   ///< side of the octahedral irradiance map, 4..32, even
+    int visibilityTexels = 16;  ///< side of the octahedral visibility map, 4..64, even
+    FieldRules rules = FieldRules::measured;
+    /// Points on emissive triangles that a probe looks at in each update besides its rays (Tracer::emitters), 0..16;
+    /// 0: light of a lamp comes by rays that happen to meet it. FieldRules::paper: none, as in the paper.
+    int emitterSamples = 4;
+    std::uint64_t seed = 1;  ///< of the per-frame ray directions, the emitter samples and the storage dither
+};
+
+/// Probes of all volumes.
+inline int probeCount(const FieldDesc& desc) {
+    int sum = 0;
+    for (const VolumeDesc& volume : desc.volumes) sum += probeCount(volume);
+    return sum;
+}
+
+/// What may change from frame to frame. Distances are fractions of probe spacing: nothing here depends on the scene's
+/// scale.
+struct FieldSettings {
+    float hysteresis = 0.97f;  ///< share of the old irradiance that survives an update (alpha of eq. 1), 0..0.999;
+                               ///< with FieldRules::measured only after events, and where there are no fixed rays
+    float visibilityHysteresis = 0.97f;  ///< the same for distance moments, on average over texels, 0..0.999
+    float visibilityExponent = 200.0f;   ///< power of the cosine that weights distances, 1..500
+    float selfShadowBias = 0.3f;         ///< TunableShadowBias of eq. 2, 0..2
+    float significantChange = 0.25f;     ///< Listing 3, 0..1, change of the encoded texel over the larger; 0 disables
+    float newDistribution = 0.8f;        ///< Listing 3, 0..1, same scale; 0 disables; both with FieldRules::paper only
+    BackfaceRule backfaceRule = BackfaceRule::zeroSample;
+    LeakGuard guard = LeakGuard::moments;
+
+    bool operator==(const FieldSettings&) const = default;
+};
+
+/// Changes that call for faster convergence than the plain hysteresis gives (section 4.3).
+enum class FieldEvent : std::uint8_t {
+    smallLightChange,   ///< irradiance hysteresis -15 % for 4 frames
+    largeLightChange,   ///< irradiance hysteresis -50 % for 10 frames
+    largeObjectChange,  ///< irradiance hysteresis -50 % for 10 frames, visibility hysteresis -50 % for 7 frames
+};
+
+/// One probe that an update is about.
+struct ProbeTask {
+    glm::vec3 origin{0.0f};    ///< where its rays begin, metres
+    std::uint32_t slot = 0;    ///< of the probe, counted over all volumes
+    std::uint32_t volume = 0;  ///< that it belongs to
+};
+
+/// The books of a field, the same on every backend: what the coming update is about (probes, rays), the settings, and
+/// the events that were announced. Every Field has one, and every vulkan::ProbeVolume. Owned by the field, used by one
+/// thread at a time, not during an update.
+class PROBEGI_API FieldControl {
+public:
+    const FieldDesc& desc() const noexcept;
+    const FieldSettings& settings() const noexcept;
+    int frame() const noexcept;  ///< updates so far
+
+    /// New settings for all that follows, updates and look-ups; all data are kept.
+    /// Errors: invalidArgument (the message names the setting and its range).
+    Result<void> setSettings(const FieldSettings& settings);
+
+    /// Announces a change to the scene (section 4.3).
+    void notify(FieldEvent event) noexcept;
+
+    /// The probes of the coming updates, in the order of their ray data.
+    std::span<const ProbeTask> tasks() const noexcept;
+    /// Chooses the probes of all coming updates, by slot, in any order; empty: all of them, as at first. Others keep
+    /// what they know. Errors: invalidArgument (a slot that is not there, or twice), outOfMemory.
+    Result<void> setTasks(std::span<const std::uint32_t> slots);
+
+    /// Unit directions of the coming update's rays, raysPerProbe of them, shared by all probes: a spherical Fibonacci
+    /// set that every frame shifts, with FieldRules::paper turns at random (section 2.3).
+    std::span<const glm::vec3> rayDirections() const noexcept;
+    /// Unit directions of the fixed rays, the same for all updates and probes; desc().fixedRays of them, none with
+    /// FieldRules::paper.
+    std::span<const glm::vec3> fixedRayDirections() const noexcept;
+
+    FieldControl(FieldControl&&) noexcept;
+    FieldControl& operator=(FieldControl&&) noexcept;
+    ~FieldControl();
+
+    struct Impl;
+    explicit FieldControl(std::unique_ptr<Impl> impl);
+    Impl& impl() noexcept { return *m_impl; }
+    const Impl& impl() const noexcept { return *m_impl; }
+
+private:
+    std::unique_ptr<Impl> m_impl;
+};
+
+}  // namespace probegi

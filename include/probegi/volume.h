@@ -1,0 +1,31 @@
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+namespace probegi {
+
+/// A lattice of probes. Probe (x, y, z) stands at (x, y, z) * spacing, turned by `orientation`, from `origin`;
+/// its number in the volume is x + counts.x * (y + counts.y * z).
+struct VolumeDesc {
+    glm::vec3 origin{0.0f};   ///< position of probe (0, 0, 0), metres
+    glm::vec3 spacing{1.0f};  ///< metres between neighbours, > 0
+    glm::ivec3 counts{2};     ///< probes per axis, 2..1024, at most 2^24 in all volumes of a field
+    /// Turns the lattice about its origin: a unit quaternion from the volume's axes to the world's.
+    glm::quat orientation{1.0f, 0.0f, 0.0f, 0.0f};
+};
+
+inline int probeCount(const VolumeDesc& v) {
+    return v.counts.x * v.counts.y * v.counts.z;
+}
+
+/// In the world, metres.
+inline glm::vec3 probePosition(const VolumeDesc& v, int number) {
+    const int x = number % v.counts.x;
+    const int y = number / v.counts.x % v.counts.y;
+    const int z = number / (v.counts.x * v.counts.y);
+    const glm::vec3 offset = glm::vec3(float(x), float(y), float(z)) * v.spacing;
+    return v.origin + (v.orientation == glm::quat(1.0f, 0.0f, 0.0f, 0.0f) ? offset : v.orientation * offset);
+}
+
+}  // namespace probegi

@@ -1,0 +1,184 @@
+#include <algorithm>
+#include <new>
+
+#include "core/sentence.h"
+#include "field/control_impl.h"
+#include "field/layout.h"
+#include "kernels/blend/temporal_filter.h"
+#include "kernels/trace/ray_set.h"
+
+namespace probegi {
+
+namespace {
+
+std::uint32_t seedOf(const FieldDesc& desc) {
+    return kernels::hashCombine(std::uint32_t(desc.seed), std::uint32_t(desc.seed >> 32));
+}
+
+// The window whose rate is what a hysteresis lets in.
+float windowOf(float hysteresis) {
+    return 1.0f / (1.0f - hysteresis);
+}
+
+std::uint32_t ditherSeedOf(const FieldDesc& desc, int frame) {
+    return kernels::hashCombine(seedOf(desc) ^ 0x6a09e667u, std::uint32_t(frame));
+}
+
+std::vector<ProbeTask> allTasks(const FieldDesc& desc) {
+    std::vector<ProbeTask> tasks;
+    tasks.reserve(std::size_t(probeCount(desc)));
+    for (std::uint32_t volume = 0; volume < desc.volumes.size(); ++volume)
+        for (int number = 0; number < probeCount(desc.volumes[volume]); ++number)
+            tasks.push_back({probePosition(desc.volumes[volume], number), std::uint32_t(tasks.size()), volume});
+    return tasks;
+}
+
+}  // namespace
+
+FieldControl::Impl::Impl(const FieldDesc& d, const FieldSettings& s)
+    : desc(d), settings(s), directions(std::size_t(d.raysPerProbe)) {
+    setAllTasks();
+    turnRays();
+    const std::uint32_t fixed = desc.rules == FieldRules::measured ? std::uint32_t(desc.fixedRays) : 0u;
+    for (std::uint32_t i = 0; i < fixed; ++i) fixedDirections.push_back(kernels::sphericalFibonacci(i, fixed));
+}
+
+void FieldControl::Impl::setAllTasks() {
+    tasks = allTasks(desc);
+    taskList = 0;
+}
+
+void FieldControl::Impl::turnRays() {
+    const bool shifted = desc.rules == FieldRules::measured && !averaging;
+    const std::uint32_t count = std::uint32_t(directions.size()), number = std::uint32_t(frame);
+    const glm::mat3 rotation = kernels::frameRotation(seedOf(desc), shifted ? 0u : number);
+    const glm::vec2 shift = shifted ? kernels::frameShift(seedOf(desc), number, count) : glm::vec2(0.5f, 0.0f);
+    for (std::uint32_t i = 0; i < count; ++i) directions[i] = rotation * kernels::shiftedFibonacci(i, count, shift);
+}
+
+std::size_t FieldControl::Impl::bytes() const noexcept {
+    return sizeof(*this) + (directions.capacity() + fixedDirections.capacity()) * sizeof(directions[0]) +
+           tasks.capacity() * sizeof(tasks[0]);
+}
+
+UpdateFrame FieldControl::Impl::comingUpdate() const noexcept {
+    UpdateFrame coming{.desc = desc,
+                       .settings = settings,
+                       .tasks = tasks,
+                       .taskList = taskList,
+                       .directions = directions,
+                       .hysteresis = events.current(settings, frame == 0),
+                       .ditherSeed = ditherSeedOf(desc, frame),
+                       .raySeed = ditherSeedOf(desc, turns) ^ 0x85ebca6bu,
+                       .bounces = frame > 0};
+    if (desc.rules == FieldRules::paper) return coming;
+    coming.linear = coming.windows = true;
+    coming.fixedDirections = fixedDirections;
+    // Where nothing would tell of a change, old light must fade all the same.
+    coming.longestWindow = events.irradianceEvent() || fixedDirections.empty() ? windowOf(coming.hysteresis.irradiance)
+                                                                               : kernels::kLongestWindow;
+    coming.longestVisibilityWindow = events.visibilityEvent() || fixedDirections.empty()
+                                         ? windowOf(coming.hysteresis.visibility)
+                                         : kernels::kLongestVisibilityWindow;
+    return coming;
+}
+
+UpdateFrame FieldControl::Impl::comingUpdateWithoutFixedRays() const noexcept {
+    UpdateFrame coming = comingUpdate();
+    coming.fixedDirections = {};
+    coming.longestWindow = windowOf(coming.hysteresis.irradiance);
+    coming.longestVisibilityWindow = windowOf(coming.hysteresis.visibility);
+    return coming;
+}
+
+UpdateFrame FieldControl::Impl::comingAverage(FrameHysteresis kept) const noexcept {
+    UpdateFrame coming = comingUpdate();
+    coming.hysteresis = kept;
+    coming.linear = true;
+    coming.windows = false;
+    coming.fixedDirections = {};
+    return coming;
+}
+
+void FieldControl::Impl::setAveraging(bool isAverage) {
+    averaging = isAverage;
+    turnRays();
+}
+
+void FieldControl::Impl::advance(bool turn) {
+    events.advance();
+    ++frame;
+    if (!turn) return;
+    ++turns;
+    turnRays();
+}
+
+void FieldControl::Impl::restart() {
+    events = {};
+    frame = turns = 0;
+    turnRays();
+}
+
+FieldControl makeFieldControl(const FieldDesc& desc, const FieldSettings& settings) {
+    return FieldControl(std::make_unique<FieldControl::Impl>(desc, settings));
+}
+
+FieldControl::FieldControl(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
+FieldControl::FieldControl(FieldControl&&) noexcept = default;
+FieldControl& FieldControl::operator=(FieldControl&&) noexcept = default;
+FieldControl::~FieldControl() = default;
+
+const FieldDesc& FieldControl::desc() const noexcept {
+    return m_impl->desc;
+}
+const FieldSettings& FieldControl::settings() const noexcept {
+    return m_impl->settings;
+}
+int FieldControl::frame() const noexcept {
+    return m_impl->frame;
+}
+void FieldControl::notify(FieldEvent event) noexcept {
+    m_impl->events.notify(event);
+}
+std::span<const ProbeTask> FieldControl::tasks() const noexcept {
+    return m_impl->tasks;
+}
+std::span<const glm::vec3> FieldControl::rayDirections() const noexcept {
+    return m_impl->directions;
+}
+std::span<const glm::vec3> FieldControl::fixedRayDirections() const noexcept {
+    return m_impl->fixedDirections;
+}
+
+Result<void> FieldControl::setSettings(const FieldSettings& settings) {
+    if (auto ok = validateFieldSettings(settings); !ok) return ok;
+    m_impl->settings = settings;
+    return {};
+}
+
+Result<void> FieldControl::setTasks(std::span<const std::uint32_t> slots) try {
+    std::vector<ProbeTask> all = allTasks(m_impl->desc), chosen;
+    if (slots.empty()) {
+        m_impl->tasks = std::move(all);
+        m_impl->taskList = 0;
+        return {};
+    }
+    std::vector<bool> taken(all.size());
+    for (const std::uint32_t slot : slots) {
+        if (slot >= all.size())
+            return fail(ErrorCode::invalidArgument,
+                        sentence("there is no probe in slot ", slot, "; the field has ", all.size(), " slots"));
+        if (taken[slot])
+            return fail(ErrorCode::invalidArgument,
+                        sentence("slot ", slot, " is listed twice; an update has each probe once"));
+        taken[slot] = true;
+        chosen.push_back(all[slot]);
+    }
+    m_impl->tasks = std::move(chosen);
+    m_impl->taskList = ++m_impl->taskLists;
+    return {};
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, "no memory for the list of probes");
+}
+
+}  // namespace probegi

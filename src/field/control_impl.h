@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "field/update_frame.h"
+#include "probegi/control.h"
+
+namespace probegi {
+
+/// What a field keeps from frame to frame besides its probes, the same on every backend: how many updates there were,
+/// the coming one's probes, ray directions and dither, and the hysteresis that events lower.
+struct FieldControl::Impl {
+    /// Both must be valid.
+    Impl(const FieldDesc& desc, const FieldSettings& settings);
+
+    /// The coming update by the described rules: with windows, or, by the paper, in encoded space with the settings'
+    /// hysteresis. Valid until advance() or a change of the settings or tasks.
+    UpdateFrame comingUpdate() const noexcept;
+    /// The same for ray data that come without fixed rays.
+    UpdateFrame comingUpdateWithoutFixedRays() const noexcept;
+    /// The coming update as part of an average in linear space, of whose old values `kept` survive.
+    UpdateFrame comingAverage(FrameHysteresis kept) const noexcept;
+    /// Whether the coming updates are part of an average. Their rays are turned, not shifted: an average follows
+    /// bounces with one and the same set, which is best as it was published.
+    void setAveraging(bool averaging);
+    /// Ends the frame: after the update. Without `turn`, the coming update has the same rays again.
+    void advance(bool turn = true);
+    /// Back to frame 0, for probes that were cleared. Desc, settings and tasks stay.
+    void restart();
+    /// All probes, in the order of their slots.
+    void setAllTasks();
+
+    std::size_t bytes() const noexcept;
+    std::size_t rayCount() const noexcept { return tasks.size() * directions.size(); }
+    std::size_t fixedRayCount() const noexcept { return tasks.size() * fixedDirections.size(); }
+
+    FieldDesc desc;
+    FieldSettings settings;
+    std::vector<ProbeTask> tasks;
+    std::uint32_t taskList = 0;   // number of the list; 0: all probes
+    std::uint32_t taskLists = 0;  // so far
+    std::vector<glm::vec3> directions, fixedDirections;
+    HysteresisSchedule events;
+    int frame = 0;
+    int turns = 0;  // of the rays
+    bool averaging = false;
+
+private:
+    void turnRays();
+};
+
+/// The desc and settings must be valid.
+FieldControl makeFieldControl(const FieldDesc& desc, const FieldSettings& settings);
+
+}  // namespace probegi

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "field/hysteresis.h"
+#include "probegi/field.h"
+
+namespace probegi {
+
+/// One update as a backend sees it: all that the field's books say of it.
+struct UpdateFrame {
+    const FieldDesc& desc;
+    const FieldSettings& settings;
+    std::span<const ProbeTask> tasks;         ///< the probes to update; ray data are [task][ray]
+    std::uint32_t taskList = 0;               ///< differs between lists of tasks
+    std::span<const glm::vec3> directions{};  ///< unit, raysPerProbe of them
+    FrameHysteresis hysteresis{};
+    bool linear = false;   ///< kernels::blendLinear instead of blendEncoded
+    bool windows = false;  ///< each probe at the rate of its own window, in place of `hysteresis`; linear is true then
+    std::span<const glm::vec3> fixedDirections{};  ///< unit; of the rays that measure lag. Empty: none
+    float longestWindow = 1;                       ///< updates, of irradiance
+    float longestVisibilityWindow = 1;             ///< updates, of distance moments
+    std::uint32_t ditherSeed = 0;                  ///< differs between frames
+    std::uint32_t raySeed = 0;  ///< of random choices besides the directions: the same as long as the rays are
+    bool bounces = true;        ///< whether the probes hold light of an earlier update
+
+    /// Whether all of the field's probes are updated, in the order of their slots.
+    bool whole() const noexcept { return taskList == 0; }
+};
+
+}  // namespace probegi

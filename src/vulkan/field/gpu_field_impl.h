@@ -1,0 +1,27 @@
+#pragma once
+
+#include "field/control_impl.h"
+#include "vulkan/device/errors.h"
+#include "vulkan/field/field_passes.h"
+
+namespace probegi::vulkan {
+
+struct GpuField::Impl {
+    Impl(const Device& device, const FieldDesc& desc, const FieldSettings& settings)
+        : passes(device, desc), control(makeFieldControl(desc, settings)) {}
+
+    FieldControl::Impl& books() noexcept { return control.impl(); }
+
+    /// guarded(), for passes: a caller drops the command buffer of those that failed.
+    template <class Body>
+    Result<void> recorded(const char* doing, const Body& body) {
+        auto done = guarded(doing, body);
+        if (!done) passes.forgetRecorded();
+        return done;
+    }
+
+    FieldPasses passes;
+    FieldControl control;
+};
+
+}  // namespace probegi::vulkan

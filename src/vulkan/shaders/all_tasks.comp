@@ -1,0 +1,17 @@
+// The list of all probes, in the order of their slots.
+#include "tasks.glsl"
+#include "volume.glsl"
+
+layout(push_constant, scalar) uniform Push {
+    TasksPush push;
+};
+
+void main() {
+    const uint slot = globalIndex();
+    if (slot >= push.count) return;
+    const int number = probegiVolumeOf(int(slot));
+    const Volume volume = probegiField.volumes[number];
+    Tasks(push.tasks).at[slot] =
+        GpuTask(probePosition(volume, probeCell(volume, int(slot))), slot, uint(number));
+    if (slot == 0u) Tasks(push.tasks).counts.tasks = push.count;
+}

@@ -1,0 +1,12 @@
+// The groups of an update's passes, from the number of its tasks.
+#include "tasks.glsl"
+
+layout(push_constant, scalar) uniform Push {
+    TasksPush push;
+};
+
+void main() {
+    if (globalIndex() > 0u) return;
+    Tasks tasks = Tasks(push.tasks);
+    tasks.counts = countedTasks(tasks.counts.tasks, push.rays, push.looks, push.irradianceTexels);
+}

@@ -1,0 +1,14 @@
+// The list of an update's tasks in a buffer.
+#ifndef PROBEGI_TASKS_GLSL
+#define PROBEGI_TASKS_GLSL
+
+#include "common.glsl"
+
+#include "kernels/abi/gpu_passes.h"
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Tasks {
+    GpuTaskCounts counts;
+    GpuTask at[];
+};
+
+#endif

@@ -1,0 +1,14 @@
+#include "lane.h"
+
+#include "kernels/abi/dispatch.h"
+
+void evaluate(INOUT(Lane) lane) {
+    const uint tasks = uint(takeIndex(lane, 1 << 20));
+    const uint rays = uint(takeIndex(lane, 1024));
+    const GpuTaskCounts counts = countedTasks(tasks, rays, uint(takeIndex(lane, 16)), uint(takeIndex(lane, 1024)));
+    giveBits(lane, counts.tasks + counts.perTask.x + counts.perTask.y);
+    giveBits(lane, counts.perRay.x + counts.perRay.y);
+    giveBits(lane, counts.perLook.x + counts.perLook.y);
+    giveBits(lane, counts.irradiance.x + counts.irradiance.y + counts.irradiance.z);
+    giveBits(lane, counts.visibility.x + counts.visibility.y + counts.visibility.z);
+}
