@@ -66,7 +66,7 @@ bool contains(const Settings& settings, const std::string& key) {
 /// The rotation that points a node's -Z axis along a direction.
 glm::quat facing(const std::string& key, glm::vec3 direction) {
     const float length = glm::length(direction);
-    if (!(length > 1e-12f) || !std::isfinite(length)) refuseMalformed("the setting {} is not a direction", key);
+    if (!(length > 1e-12f) || !std::isfinite(length)) refuseMalformed("the setting {} has no direction", key);
     direction /= length;
     const bool vertical = std::abs(direction.y) > 0.999f;
     return glm::quatLookAt(direction, vertical ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0));
