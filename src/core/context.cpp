@@ -15,7 +15,7 @@ namespace probegi {
 
 namespace {
 
-/// Whether so many threads can run beside this one. TBB, which starts them later, ends the program where it cannot.
+/// Whether that many further threads can be started. TBB, which starts them later, aborts if it cannot.
 Result<void> tryThreads(int count) {
     std::latch end(1);
     std::vector<std::jthread> threads;
