@@ -28,7 +28,7 @@ void HysteresisSchedule::notify(FieldEvent event) noexcept {
 FrameHysteresis HysteresisSchedule::current(const FieldDesc& desc, bool firstFrame) const noexcept {
     if (firstFrame) return {};
     const auto factor = [](const Reduction& r) { return r.framesLeft > 0 ? r.factor : 1.0f; };
-    // Overlapping events: the stronger one counts.
+    // Of overlapping events, the stronger one applies.
     return {desc.hysteresis * std::min(factor(m_smallLight), factor(m_large)),
             desc.visibilityHysteresis * factor(m_visibility)};
 }

@@ -4,20 +4,20 @@
 
 namespace probegi {
 
-/// Shares of the old values that survive the coming update.
+/// Shares of the old values that the next update keeps.
 struct FrameHysteresis {
     float irradiance = 0;
     float visibility = 0;
 };
 
-/// Which hysteresis the coming update uses: the described one, lowered for a few frames after announced changes
-/// (section 4.3: "reduce irradiance hysteresis by 15% for four frames", and so on), 0 for the first update.
+/// Hysteresis of the next update: that of the desc, lowered for a few frames after announced changes (section 4.3:
+/// "reduce irradiance hysteresis by 15% for four frames", and so on), 0 for the first update.
 class HysteresisSchedule {
 public:
     void notify(FieldEvent event) noexcept;
-    /// The coming frame's values. Does not advance.
+    /// The next frame's values. Does not advance.
     FrameHysteresis current(const FieldDesc& desc, bool firstFrame) const noexcept;
-    /// Whether an announced change lowers the coming frame's irradiance hysteresis.
+    /// Whether an announced change lowers the next frame's irradiance hysteresis.
     bool irradianceEvent() const noexcept { return m_smallLight.framesLeft > 0 || m_large.framesLeft > 0; }
     /// Whether one lowers its visibility hysteresis.
     bool visibilityEvent() const noexcept { return m_visibility.framesLeft > 0; }

@@ -44,7 +44,7 @@ Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc) {
     if (!(desc.marginCells >= 0) || desc.marginCells > 100)
         return fail(ErrorCode::invalidArgument, sentence("marginCells is ", desc.marginCells, "; it must be 0 to 100"));
 
-    // A flat axis still gets a cell, and a little room so that the scene never lies on the grid's very face.
+    // A flat axis still gets a cell, and a little room so that the scene is never exactly on the grid's face.
     const glm::vec3 padded = glm::max(size, glm::vec3(largest * 1e-3f));
     GridDesc grid;
     if (desc.counts == glm::ivec3(0)) {
@@ -60,7 +60,7 @@ Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc) {
                 return fail(ErrorCode::invalidArgument,
                             sentence("counts has ", desc.counts[axis], "; each axis must have 2 to 1024 probes"));
             const float inner = float(desc.counts[axis] - 1) - 2.0f * (desc.marginCells + kOffWall);
-            // Too few probes for a margin on both sides: the scene then fills the middle half of the grid.
+            // With too few probes for a margin on both sides, the scene fills the middle half of the grid.
             grid.spacing[axis] = padded[axis] / std::max(inner, 0.5f * float(desc.counts[axis] - 1));
         }
         grid.counts = desc.counts;

@@ -8,7 +8,7 @@
 
 namespace probegi {
 
-/// Nanoseconds summed over threads.
+/// Nanoseconds, summed over threads.
 struct TraceTimes {
     std::atomic<std::int64_t> traceNs{0};
     std::atomic<std::int64_t> shadeNs{0};
@@ -21,19 +21,19 @@ struct EmitterSearch;
 
 /// Directions of a probe's rays, the same for all probes.
 struct ProbeRayDirections {
-    std::span<const glm::vec3> update;  ///< of the rays that are blended
+    std::span<const glm::vec3> update;  ///< of the blended rays
     std::span<const glm::vec3> fixed;   ///< of the rays that measure lag; may be empty
 };
 
-/// What they bring home: [probe][ray] of each kind.
+/// Their results: [probe][ray] of each kind.
 struct ProbeRayData {
     std::span<RayDatum> update;
     std::span<FixedRayDatum> fixed;
 };
 
 /// Traces and shades the rays of all probes on the context's threads, with any tracer: closest hits, surfaces, punctual
-/// lights with shadow rays, emission (of update rays as far as `emitters` leaves it to them), sky, and the light of
-/// earlier bounces (empty: none). Fills `out`. Errors: those of the tracer and of `bounces`.
+/// lights with shadow rays, emission (for update rays, weighted against `emitters`), sky, and the light of earlier
+/// bounces (empty: none). Fills `out`. Errors: those of the tracer and of `bounces`.
 Result<void> traceProbes(const Context& context, const GridDesc& grid, const ProbeRayDirections& directions,
                          const Tracer& tracer, const Lighting& lighting, const BounceQuery& bounces,
                          const EmitterSearch& emitters, const ProbeRayData& out, TraceTimes& times);

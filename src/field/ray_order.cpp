@@ -13,7 +13,7 @@ namespace {
 constexpr glm::ivec3 kBlock{2, 2, 4};
 static_assert(kBlock.x * kBlock.y * kBlock.z == ProbeBlocks::kMostProbes);
 
-// Bits of x and y in turn, x lowest: a curve over the square (Morton).
+// Interleaved bits of x and y, x lowest (Morton curve).
 std::uint32_t interleaved(std::uint32_t x, std::uint32_t y) {
     std::uint32_t code = 0;
     for (int bit = 0; bit < 8; ++bit) code |= (x >> bit & 1u) << (2 * bit) | (y >> bit & 1u) << (2 * bit + 1);

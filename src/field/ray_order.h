@@ -9,9 +9,9 @@
 
 namespace probegi {
 
-/// The order in which an update traces its rays. A task has the probes of a small box of the grid and some directions,
-/// and rays of one direction lie side by side in it: they start near each other, meet the same nodes, triangles, texels
-/// and probes, and find them in the caches. Rays of one probe have nothing in common but their origin.
+/// The order in which an update traces its rays. A task has the probes of a small box of the grid and some directions;
+/// rays of one direction are adjacent in it. They start near each other and hit the same nodes, triangles, texels and
+/// probes, which are then cached. Rays of one probe share only their origin.
 
 /// Boxes of up to 16 neighbouring probes that cover a grid.
 class ProbeBlocks {
@@ -21,7 +21,7 @@ public:
     explicit ProbeBlocks(const GridDesc& grid);
 
     std::size_t count() const noexcept;
-    /// The probes of one box, x fastest; fewer where the grid ends.
+    /// The probes of one box, x fastest; fewer at the grid's end.
     void probesOf(std::size_t block, std::vector<std::uint32_t>& probes) const;
 
 private:
@@ -29,13 +29,13 @@ private:
     glm::ivec3 m_blocks;  // of boxes
 };
 
-/// One direction of a set, and which.
+/// A direction of a set with its index.
 struct OrderedDirection {
     glm::vec3 direction;
     std::uint32_t index;
 };
 
-/// The directions along a curve over the sphere, so that what follows one another looks the same way.
+/// The directions along a space-filling curve over the sphere, so that consecutive ones are similar.
 std::vector<OrderedDirection> alongCurve(std::span<const glm::vec3> directions);
 
 }  // namespace probegi

@@ -20,8 +20,8 @@ Result<void> checkMapSize(const char* name, int size, int highest) {
     return fail(ErrorCode::invalidArgument, sentence(name, " is ", size, "; it must be even"));
 }
 
-/// Rays leave a surface from a little beside it, as far as coordinates are rounded there; that must be little for the
-/// probes too, or their light is lost.
+/// Rays leave a surface at an offset proportional to the rounding of coordinates there; it must be small relative to
+/// the probe spacing too, or light is lost.
 Result<void> checkDistance(const GridDesc& grid) {
     constexpr float kMostOfSpacing = 0.25f;
     const glm::vec3 last = grid.origin + grid.spacing * glm::vec3(grid.counts - 1);
