@@ -7,11 +7,11 @@
 
 namespace probegi {
 
-/// Ray queries in packets of 16. Measured on Sponza (262,267 triangles, robust mode, AVX-512), against one ray a call:
-/// incoherent probe rays take 0.88 of the time and give bit-identical hits, incoherent shadow rays 0.65; rows of
-/// pixels, which Embree then traverses together, 0.25 to 0.4 (there, a ray that meets several triangles at the very
-/// same distance may name another of them). Sorting rays by direction first gained nothing. Rays that are not numbers,
-/// or too large, hit nothing.
+/// Ray queries in packets of 16. Measured on Sponza (262,267 triangles, robust mode, AVX-512), against one ray per
+/// call: incoherent probe rays take 0.88 of the time and give bit-identical hits, incoherent shadow rays 0.65; rows of
+/// pixels, which Embree then traverses together, 0.25 to 0.4 (there, a ray that hits several triangles at the same
+/// distance may return another of them). Sorting rays by direction first gained nothing. Rays with NaN or too large
+/// values hit nothing.
 class EmbreePackets {
 public:
     /// @param originSpread  metres; rays whose origins lie within it may count as coherent, where directions agree too

@@ -9,12 +9,12 @@
 
 namespace probegi {
 
-/// Weights of every ray of a frame for every texel of a probe: since all probes share the frame's rays, the
+/// Weights of every ray of a frame for every texel of a probe. Since all probes share the frame's rays, the
 /// blend of all probes is a product with these two matrices. Both are [ray][texel], and normalised over the rays.
 struct BlendWeights {
     std::vector<float> irradiance;
     std::vector<float> visibility;
-    std::vector<float> evidence;  ///< [visibility texel]: kernels::visibilityEvidence(); by the paper's rules 1
+    std::vector<float> evidence;  ///< [visibility texel]: kernels::visibilityEvidence(); 1 with the paper's rules
 };
 
 /// Fills the weights for a frame's directions (eq. 1, and its power-cosine form for distances).
@@ -28,17 +28,17 @@ struct ProbeStep {
     float change = 0;  ///< out: mean square difference between new and old texels over the square of the old mean
 };
 
-/// How the new values join the old ones.
+/// How new values are blended with old ones.
 struct BlendFrame {
     FrameHysteresis hysteresis;
     bool linear = false;              ///< blendLinear instead of blendEncoded
     std::uint32_t ditherSeed = 0;     ///< differs between frames
-    std::span<ProbeStep> steps = {};  ///< [probe]: each with its own hysteresis; empty: all with `hysteresis`
+    std::span<ProbeStep> steps = {};  ///< [probe]: hysteresis per probe; empty: `hysteresis` for all
 };
 
 /// Blends the ray data of all probes into the storage: weights x data, then encoding, hysteresis and storage.
-/// rayData is [probe][ray]. Values that are not finite count as 0 radiance and as the farthest distance.
-/// `emitters`: what the probes' looks at emitters brought, [probe][look], or nothing.
+/// rayData is [probe][ray]. Non-finite values count as 0 radiance and as the farthest distance.
+/// `emitters`: the probes' emitter samples, [probe][look], or empty.
 void blendProbes(const Context& context, const FieldDesc& desc, const FieldLayout& layout, const BlendWeights& weights,
                  std::span<const RayDatum> rayData, const BlendFrame& frame, FieldStorage& storage,
                  std::span<const kernels::EmitterLight> emitters = {});

@@ -10,7 +10,7 @@ namespace probegi {
 
 namespace {
 
-// Steps into the open by way of the 26 neighbours.
+// Path length into the open via the 26 neighbours.
 std::uint32_t stepsByNeighbours(const FieldView& view, std::span<const kernels::ProbeSides> sides, int probe) {
     const GridDesc& grid = view.desc->grid;
     const glm::ivec3 cell = kernels::gpuProbeCell(probe, grid.counts);

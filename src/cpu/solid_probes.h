@@ -4,8 +4,8 @@
 
 namespace probegi {
 
-/// After a blend: finds the probes from which a free line leads into the open, so that the coming update knows which of
-/// those that see backs stand in solid matter (kernels/probe/solid_probe.h). One step from probe to probe an update.
+/// After a blend: finds the probes with a clear path into the open, so that the next update knows which of those that
+/// see backs are in solid matter (kernels/probe/solid_probe.h). Paths grow by one probe per update.
 void findSolidProbes(const Context& context, const FieldView& view, std::span<kernels::ProbeSides> sides);
 
 }  // namespace probegi

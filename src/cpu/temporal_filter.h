@@ -8,17 +8,16 @@
 
 namespace probegi {
 
-/// The passes around a blend with windows (kernels/blend/temporal_filter.h), with what they hand to each other.
+/// The passes around a blend with windows (kernels/blend/temporal_filter.h), and their shared data.
 class TemporalFilter {
 public:
-    /// Before the blend: what the fixed rays [probe][ray] tell of each probe's lag, and the windows that follow from
-    /// the lag of a probe and its neighbours. Without fixed rays the update's own must do. Gives the steps for
-    /// BlendFrame.
+    /// Before the blend: each probe's lag from the fixed rays [probe][ray], and the windows from the lag of a probe and
+    /// its neighbours. Without fixed rays the update's own are used. Returns the steps for BlendFrame.
     std::span<ProbeStep> chooseWindows(const Context& context, const UpdateFrame& frame, const FieldLayout& layout,
                                        std::span<const RayDatum> rayData, std::span<const FixedRayDatum> fixedRays,
                                        FieldStorage& storage);
 
-    /// After the blend: noise from the steps' changes; the fixed rays join their averages.
+    /// After the blend: updates noise from the steps' changes, and the averages of the fixed rays.
     void advance(const Context& context, const UpdateFrame& frame, FieldStorage& storage);
 
     std::size_t bytes() const noexcept;
@@ -33,7 +32,7 @@ private:
     std::vector<ProbeStep> m_steps;
 };
 
-/// After an update that was part of an average over `frames` updates: the windows that such an average has.
+/// After the updates of an average: sets the windows that such an average has.
 void forgetFilters(FieldStorage& storage, float window);
 
 }  // namespace probegi
