@@ -4,12 +4,12 @@
 
 #include <vulkan/vulkan_raii.hpp>
 
-/// A descriptor set with which compute shaders of the engine read a volume of probes through probegi/query.glsl.
+/// A descriptor set with which the engine's compute shaders read a probe volume through probegi/query.glsl.
 class ProbeSet {
 public:
     explicit ProbeSet(const vk::raii::Device& device);
 
-    /// Which volume. Not while a command buffer with the set is in flight.
+    /// Selects the volume. Not while a command buffer with the set is in flight.
     void write(const probegi::vulkan::ProbeVolume& volume) { volume.writeQueryBindings(*m_set, 0); }
     vk::DescriptorSetLayout layout() const { return *m_layout; }
     vk::DescriptorSet operator*() const { return *m_set; }

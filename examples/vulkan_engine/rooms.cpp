@@ -48,7 +48,7 @@ FrameData frameAt(float time, float aspect) {
     const glm::vec3 slide(-3.7f + 1.0f * time, 0, 1.9f);
     frame.boxes[kCrate].lower += slide;
     frame.boxes[kCrate].upper += slide;
-    // A long lens far away: both rooms as in a doll's house.
+    // A long lens from far away shows both rooms as in a doll's house.
     glm::mat4 projection = glm::perspectiveRH_ZO(glm::radians(16.8f), aspect, 1.0f, 50.0f);
     projection[1][1] *= -1;  // Vulkan's y points down
     frame.worldToClip = projection * glm::lookAt(kEye, glm::vec3(0, 1.45f, 0), glm::vec3(0, 1, 0));
@@ -88,10 +88,10 @@ Lighting lightingOf(const FrameData& frame) {
 
 FieldDesc fieldDesc() {
     FieldDesc desc;
-    // Walls lie between probes, and a layer of probes outside of them: 980 in all.
+    // Walls lie between probes, with a layer of probes outside: 980 in total.
     desc.grid = {.origin = {-4.875f, -0.45f, -3.375f}, .spacing = glm::vec3(0.75f), .counts = {14, 7, 10}};
     desc.hysteresis = desc.visibilityHysteresis = 0.9f;  // a short film: follow it closely
-    desc.fixedRays = 0;  // the engine's own rays bring none, and both volumes are to follow alike
+    desc.fixedRays = 0;  // the engine's own rays include none, and both volumes must respond alike
     return desc;
 }
 
