@@ -14,9 +14,9 @@ namespace probegi {
 /// values hit nothing.
 class EmbreePackets {
 public:
-    /// @param originSpread  metres; rays whose origins lie within it may count as coherent, where directions agree too
-    /// @param instanced  whether the scene holds instances: coherent occlusion is then left alone, because with
-    ///                   AVX-512 Embree 3.13 reads an uninitialised lane mask there and can loop for ever
+    /// @param originSpread  metres; rays with origins this close and similar directions count as coherent
+    /// @param instanced  whether the scene has instances: coherent occlusion is then not used, because with AVX-512
+    ///                   Embree 3.13 reads an uninitialised lane mask there and can loop for ever
     EmbreePackets(RTCScene scene, float originSpread, bool instanced);
 
     void closestHits(std::span<const Ray> rays, std::span<Hit> hits);

@@ -40,7 +40,7 @@ Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc) {
     const glm::vec3 size = bounds.size();
     const float largest = std::max({size.x, size.y, size.z});
     if (!std::isfinite(largest) || !(largest > 0))
-        return fail(ErrorCode::invalidArgument, "the scene has no extent to place probes in; give a volume");
+        return fail(ErrorCode::invalidArgument, "the scene has no extent to place probes in; set a volume");
     if (!(desc.marginCells >= 0) || desc.marginCells > 100)
         return fail(ErrorCode::invalidArgument, sentence("marginCells is ", desc.marginCells, "; it must be 0 to 100"));
 
@@ -67,9 +67,10 @@ Result<GridDesc> placeGrid(const Bounds& bounds, const PlacementDesc& desc) {
     }
     const float closest = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
     if (closest < kSmallestSpacing)
-        return fail(ErrorCode::invalidArgument,
-                    sentence("the scene is only ", largest, " m large: its probes would be ", closest, " m apart, and ",
-                             kSmallestSpacing, " m is the least; is it in metres? scale it up"));
+        return fail(
+            ErrorCode::invalidArgument,
+            sentence("the scene is only ", largest, " m large: its probes would be ", closest,
+                     " m apart, but at least ", kSmallestSpacing, " m is needed; is it in metres? scale it up"));
     grid.origin = bounds.centre() - 0.5f * grid.spacing * glm::vec3(grid.counts - 1);
     return grid;
 }

@@ -12,7 +12,7 @@ namespace probegi {
 struct EmitterSearch {
     const EmitterSet* set = nullptr;  ///< null: none
     int rays = 0;                     ///< update rays a probe
-    int looks = 0;                    ///< a probe
+    int looks = 0;                    ///< per probe
     std::uint32_t seed = 0;           ///< differs between frames
 
     explicit operator bool() const noexcept { return set != nullptr; }

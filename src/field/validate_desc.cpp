@@ -31,7 +31,7 @@ Result<void> checkDistance(const GridDesc& grid) {
     return fail(ErrorCode::invalidArgument,
                 sentence("the probe grid reaches ", std::max({corner.x, corner.y, corner.z}),
                          " m from the origin, where coordinates are too coarse for probes ", closest,
-                         " m apart; move the scene to the origin, or set probes farther apart"));
+                         " m apart; move the scene to the origin, or increase the spacing"));
 }
 
 Result<void> checkGrid(const GridDesc& grid) {

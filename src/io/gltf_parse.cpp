@@ -123,7 +123,7 @@ tinygltf::Model load(tinygltf::TinyGLTF& reader, std::span<const std::uint8_t> b
     return model;
 } catch (const std::bad_alloc&) {
     throw;
-} catch (const std::exception&) {  // it asks JSON for what is not there
+} catch (const std::exception&) {  // it accesses missing JSON members
     refuseMalformed("is not valid glTF: a value is missing or of the wrong kind; export it again");
 }
 

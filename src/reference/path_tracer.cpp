@@ -217,7 +217,7 @@ Result<std::vector<ReferenceIrradiance>> PathTracer::irradiance(std::span<const 
                                 .guide = learned && !learned->empty() ? &*learned : nullptr};
     return estimateIrradiance(m_impl->context, m_impl->transport, settings, points, samples, seed);
 } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::outOfMemory, "There is not enough memory for the reference irradiance; ask in parts.");
+    return fail(ErrorCode::outOfMemory, "There is not enough memory for the reference irradiance; split the request.");
 }
 
 }  // namespace probegi

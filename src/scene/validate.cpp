@@ -38,7 +38,7 @@ Result<void> validateSurroundings(const Scene& scene) {
     if (!energy(sky.radiance)) return malformed("sky: radiance ", text(sky.radiance), " must be 0 to ", kBrightest);
     const HdrImage& image = sky.image;
     if (image.width < 0 || image.height < 0 || image.pixels.size() != std::size_t(image.width) * image.height) {
-        return malformed("sky image: ", image.pixels.size(), " pixels do not make ", image.width, " x ", image.height);
+        return malformed("sky image: ", image.pixels.size(), " pixels are not ", image.width, " x ", image.height);
     }
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         if (!energy(image.pixels[i]) || !energy(image.pixels[i] * sky.radiance)) {

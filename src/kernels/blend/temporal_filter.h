@@ -156,7 +156,7 @@ KERNEL_FN ProbeLag probeLag(ProbeSight now, ProbeFilter state) {
     return lag;
 }
 
-// Probes in solid matter are ignored by their neighbours: nobody uses them, and what they see depends on materials.
+// Probes in solid matter are ignored by their neighbours: they are unused, and what they see depends on materials.
 KERNEL_FN ProbeLag lagHeard(ProbeLag lag, float backfaceShare) {
     const float heard = backfaceShare < kInsideShare + kInsideShareEdge ? 1.0f : 0.0f;
     lag.direct *= heard;
