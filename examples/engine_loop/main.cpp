@@ -1,5 +1,5 @@
-// A frame loop: a lamp is switched on and off, the field is told, updated once a frame and asked. Energy conservation
-// says what the walls must receive on average, so the example knows whether it is right.
+// A frame loop: a lamp is switched on and off; the field is notified, updated once per frame and queried. The result is
+// checked against the walls' mean irradiance by energy conservation.
 #include <probegi/probegi.h>
 
 #include <cstdio>
@@ -22,7 +22,7 @@ Result<float> meanOnWalls(const Field& field, std::span<const FieldQuery> points
     return sum / float(points.size());
 }
 
-/// Runs the loop for as long as the lamp stays as it is; returns the walls' mean indirect irradiance at the end.
+/// Runs the loop with the lamp unchanged; returns the walls' mean indirect irradiance at the end.
 Result<float> playFrames(Field& field, const Tracer& tracer, const Lighting& lighting, const Room& room) {
     const std::vector<FieldQuery> points = room.wallPoints();
     field.control().notify(FieldEvent::largeLightChange);  // follow faster for some frames
@@ -57,7 +57,7 @@ Result<bool> runGame() {
     const auto dark = playFrames(*field, **tracer, {}, room);
     if (!dark) return dark.error();
 
-    // All light of the lamp ends in the walls; a share `albedo` of what they receive comes back, again and again.
+    // All light of the lamp ends in the walls, which reflect a share `albedo` of what they receive, repeatedly.
     const float flux = 4 * kPi * kLamp.intensity.y;
     const float truth = flux / room.area() * Room::kAlbedo / (1 - Room::kAlbedo);
     std::printf("lit: %.3f W/m^2 (energy conservation: %.3f); dark: %.4f\n", *lit, truth, *dark);

@@ -12,6 +12,6 @@ struct Room {
 
     float area() const { return 2 * (size.x * size.y + size.y * size.z + size.z * size.x); }
     probegi::Scene scene() const;
-    /// Questions spread evenly over all six walls.
+    /// Queries spread evenly over all six walls.
     std::vector<probegi::FieldQuery> wallPoints() const;
 };

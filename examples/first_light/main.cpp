@@ -1,4 +1,4 @@
-// From a scene to an answer: how much light arrives at the ceiling of Cornell's box, which its lamp cannot reach?
+// From a scene to an answer: how much light arrives at the ceiling of the Cornell box, which its lamp cannot reach?
 #include <probegi/probegi.h>
 
 #include <cstdio>
@@ -25,7 +25,7 @@ static int run() {
     std::printf("the ceiling receives %.2f %.2f %.2f W/m^2\n", e.x, e.y, e.z);
     // [/readme]
 
-    // The truth: the same question, path traced.
+    // The ground truth: the same query, path-traced.
     const PathTracer reference = PathTracer::create(context, scene, pose, *tracer, lighting).value();
     const glm::vec3 truth = reference.irradiance(std::span(&ceiling, 1), 20000).value()[0].mean;
     std::printf("path traced:         %.2f %.2f %.2f W/m^2\n", truth.x, truth.y, truth.z);

@@ -16,7 +16,7 @@ Primitive walls() {
     addBox(all, {-out, top, -deep - wall}, {out, top + wall, deep + wall});             // ceiling
     addBox(all, {-out, 0, -deep - wall}, {out, top, -deep});                            // the long walls
     addBox(all, {-out, 0, deep}, {out, top, deep + wall});                              //
-    addBox(all, {-out, 0, -deep}, {-kEnd, top, deep});                                  // the short ones
+    addBox(all, {-out, 0, -deep}, {-kEnd, top, deep});                                  // the short walls
     addBox(all, {kEnd, 0, -deep}, {out, top, deep});                                    //
     addBox(all, {-kHalf, 0, -deep}, {kHalf, top, -kDoorWidth / 2});                     // around the door
     addBox(all, {-kHalf, 0, kDoorWidth / 2}, {kHalf, top, deep});                       //
@@ -31,14 +31,14 @@ House::House() {
     scene.materials.resize(1);
     scene.materials[0].baseColor = {0.7f, 0.7f, 0.7f, 1};
     addObject(scene, walls(), "walls");
-    Primitive leaf;  // its hinge is the origin of its own coordinates
+    Primitive leaf;  // its hinge is at its own origin
     addBox(leaf, {-kHalf, 0, 0}, {kHalf, kDoorHeight, kDoorWidth});
     door = addObject(scene, std::move(leaf), "door");
     scene.nodes[std::size_t(door)].translation = {0, 0, -kDoorWidth / 2};
 }
 
 ScenePose House::poseWithDoor(float angle) const {
-    Scene moved = scene;  // an engine has its own transforms, and fills a ScenePose with them
+    Scene moved = scene;  // an engine fills a ScenePose with its own transforms
     moved.nodes[std::size_t(door)].rotation = glm::angleAxis(angle, glm::vec3(0, 1, 0));
     return poseAt(moved);
 }

@@ -1,5 +1,5 @@
-// A door opens and shuts: the tracer is told where it is, frame by frame, and builds nothing anew; the field is told
-// that something large moves. The path tracer says what the room behind the door must receive.
+// A door opens and shuts: each frame the tracer gets its pose and rebuilds nothing else; the field is notified that
+// something large moves. The path tracer provides the reference for the room behind the door.
 #include <chrono>
 #include <cstdio>
 
@@ -13,7 +13,7 @@ constexpr PlacedLight kLamp{.type = LightType::point, .position = {-2, 2.5f, 0.5
 constexpr float kOpen = 1.4f;  // radians
 constexpr int kSwing = 30, kRest = 30;
 
-/// As .value() of a Result that has one: throws where it failed.
+/// Like .value(): throws on failure.
 void must(const Result<void>& done) {
     if (!done) throw BadResult(done.error());
 }
@@ -59,7 +59,7 @@ float truthOfSecondRoom(const World& world, float angle) {
     return sum / float(points.size());
 }
 
-/// The frames while the door swings from one angle to another, and some at rest. Returns milliseconds of a move.
+/// Plays frames while the door swings from one angle to another, and some at rest. Returns milliseconds per move.
 double playFrames(World& world, float from, float to) {
     using Clock = std::chrono::steady_clock;
     double moving = 0;

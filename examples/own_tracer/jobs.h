@@ -6,8 +6,8 @@
 #include <thread>
 #include <vector>
 
-/// Stands for an engine's job system: a loop whose steps any thread may take, as probegi::ContextDesc::parallelFor
-/// wants it. An engine would hand the steps to threads that it already has.
+/// Stand-in for an engine's job system: a loop whose steps any thread may run, as probegi::ContextDesc::parallelFor
+/// requires. An engine would use its existing threads.
 inline void runJobs(std::size_t count, const std::function<void(std::size_t)>& step) {
     std::atomic<std::size_t> next{0};
     const auto work = [&] {

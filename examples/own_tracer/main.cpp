@@ -1,6 +1,6 @@
-// A field on rays that ProbeGI did not trace: an engine keeps its own ray tracer and hands over what its rays brought
-// home, and ProbeGI works in the engine's own jobs. Needs GLM and Highway, nothing else. Writes own_tracer.png where
-// this ProbeGI can, and checks places whose light is known.
+// A field updated with an engine's own rays: the engine keeps its ray tracer and passes in the results, and ProbeGI
+// runs on the engine's jobs. Needs only GLM and Highway. Writes own_tracer.png if ProbeGI was built with file formats,
+// and checks points whose light is known.
 #include <probegi/probegi.h>
 
 #include <cstdio>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kPi = 3.14159265f;
 
-/// Radiance that a surface sends back: sun, and what the field knows so far (so each update adds a bounce).
+/// Radiance that a surface reflects: sun, and the field so far (so each update adds a bounce).
 glm::vec3 shade(const SphereWorld& world, const Field& field, const SphereWorld::Surface& surface, glm::vec3 toViewer) {
     const glm::vec3 indirect = field.irradiance({surface.position, surface.normal, toViewer});
     return surface.albedo / kPi * (world.sunlight(surface) + indirect);
@@ -24,7 +24,7 @@ glm::vec3 shade(const SphereWorld& world, const Field& field, const SphereWorld:
 RayDatum traceProbeRay(const SphereWorld& world, const Field& field, glm::vec3 origin, glm::vec3 direction) {
     const auto surface = world.trace(origin, direction);
     if (surface.missed()) return {world.skyRadiance, SphereWorld::kMiss};
-    const bool inside = glm::dot(surface.normal, direction) > 0;  // the probe sits in a sphere or below the plane
+    const bool inside = glm::dot(surface.normal, direction) > 0;  // the probe is in a sphere or below the plane
     if (inside) return {glm::vec3(0), -surface.distance};
     return {shade(world, field, surface, -direction), surface.distance};
 }
@@ -56,7 +56,7 @@ Result<UpdateTimes> updateOnce(const SphereWorld& world, Field& field, std::vect
     return image;
 }
 
-/// The answers that anybody can work out on paper.
+/// Checks against answers that can be worked out by hand.
 bool lightIsRight(const SphereWorld& world, const Field& field) {
     const auto e = [&](glm::vec3 position, glm::vec3 normal) { return field.irradiance({position, normal}); };
     const glm::vec3 open = e({0, 0, -3.5f}, {0, 1, 0});  // sees nearly all of the sky

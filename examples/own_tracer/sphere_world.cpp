@@ -5,7 +5,7 @@
 
 namespace {
 
-/// Distance to the near side of a sphere, or to its far side from within; kMiss where there is none.
+/// Distance to the near side of a sphere, or to its far side from inside; kMiss if there is none.
 float hitSphere(const SphereWorld::Sphere& sphere, glm::vec3 origin, glm::vec3 direction) {
     const glm::vec3 offset = origin - sphere.centre;
     const float b = glm::dot(offset, direction);

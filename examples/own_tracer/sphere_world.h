@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-/// The example's own scene and ray tracer: three spheres on a plane under a sun and a grey sky. It stands for whatever
-/// an engine has; nothing here knows of ProbeGI.
+/// The example's own scene and ray tracer: three spheres on a plane under a sun and a grey sky. A stand-in for an
+/// engine's; independent of ProbeGI.
 struct SphereWorld {
     struct Sphere {
         glm::vec3 centre;

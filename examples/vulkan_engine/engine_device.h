@@ -3,8 +3,8 @@
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
-/// The engine's own Vulkan: instance, device and a queue, as any engine has them. Nothing here knows of ProbeGI; what
-/// it asks for is in createInfo() and instanceExtensions(), and that is what Device::adopt() wants to know.
+/// The engine's own Vulkan instance, device and queue, independent of ProbeGI. createInfo() and instanceExtensions()
+/// are what it enabled, for Device::adopt().
 class EngineDevice {
 public:
     EngineDevice();
@@ -18,7 +18,7 @@ public:
     std::uint32_t family() const { return m_family; }
     const std::vector<const char*>& instanceExtensions() const { return m_instanceExtensions; }
     const VkDeviceCreateInfo& createInfo() const { return m_created.get<vk::DeviceCreateInfo>(); }
-    /// Warnings and errors of the validation layer so far; 0 where the layer is not installed.
+    /// Warnings and errors of the validation layer so far; 0 if the layer is not installed.
     int validationMessages() const { return m_messages; }
 
 private:

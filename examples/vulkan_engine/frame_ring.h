@@ -22,10 +22,10 @@ public:
     FrameRing& operator=(const FrameRing&) = delete;
     ~FrameRing() { vkDeviceWaitIdle(*m_engine.device()); }
 
-    /// The next frame, once the GPU has let go of it: its command buffer records.
+    /// The next frame, once the GPU has finished with it; its command buffer is recording.
     Frame& begin();
     void submit();
-    /// Until all that was submitted has finished.
+    /// Waits until all submissions have finished.
     void wait();
     /// Mean milliseconds of each pass since the beginning.
     void printTimes() const;

@@ -7,14 +7,14 @@
 #include "own_rays.h"
 #include "rooms.h"
 
-/// What an engine adds to have ProbeGI: its device is adopted, and two volumes of probes are updated in its command
-/// buffer. One is fed by the library's tracer, the other by the engine's rays; both must say the same.
+/// What an engine adds to use ProbeGI: its device is adopted, and two probe volumes are updated in its command buffer.
+/// One uses the library's tracer, the other the engine's rays; both must agree.
 class GlobalIllumination {
 public:
     GlobalIllumination(const probegi::Context& context, const EngineDevice& engine, MemoryPool& pool,
                        const FrameData& start);
 
-    /// Once, in a command buffer before all others; when it has finished, the staging memory can go.
+    /// Once, in a command buffer before all others; when it has finished, the staging memory can be released.
     void recordUpload(const vk::raii::CommandBuffer& commands);
     void releaseStaging();
     /// One update of both volumes. `frame`: address of the same data, visible to compute shaders.

@@ -1,7 +1,7 @@
-// An engine with a Vulkan device of its own takes ProbeGI on: two volumes of probes are updated in the engine's command
-// buffer, one submission a frame and two frames in flight, and its shading pass asks one of them. Writes
-// vulkan_engine.png (without the probes, with them) and checks that both volumes say the same: one traces triangles
-// with the library, the other blends what the engine's own rays brought home. Usage: vulkan_engine [FRAMES [HEIGHT]]
+// An engine with its own Vulkan device integrates ProbeGI: two probe volumes are updated in the engine's command
+// buffer, one submission per frame and two frames in flight, and its shading pass queries one of them. Writes
+// vulkan_engine.png (without the probes, with them) and checks that both volumes agree: one traces triangles with the
+// library, the other blends the results of the engine's own rays. Usage: vulkan_engine [FRAMES [HEIGHT]]
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -25,7 +25,7 @@ struct Options {
     std::uint32_t width() const { return height * 23 / 10; }
 };
 
-// The mean of each square of four pixels.
+// The mean of each 2 x 2 pixels.
 [[maybe_unused]] HdrImage halved(const HdrImage& image) {
     HdrImage half(image.width / 2, image.height / 2);
     for (int y = 0; y < half.height; ++y)
@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
     if (argc > 2) options.height = std::uint32_t(std::atoi(argv[2]));
     try {
         return run(options) ? 0 : 1;
-    } catch (const BadResult& failure) {  // of .value(): ProbeGI itself throws nothing
+    } catch (const BadResult& failure) {  // from .value(): ProbeGI itself throws nothing
         std::fprintf(stderr, "vulkan_engine: %s\n", failure.error().message.c_str());
     } catch (const std::exception& failure) {  // the engine's own
         std::fprintf(stderr, "vulkan_engine: %s\n", failure.what());

@@ -39,7 +39,7 @@ std::uint32_t MemoryPool::memoryType(std::uint32_t allowed, MemoryUse use) const
 MemoryPool::Block& MemoryPool::blockFor(const VkMemoryRequirements& needs, std::uint32_t type) {
     for (Block& block : m_blocks)
         if (block.type == type && alignUp(block.used, needs.alignment) + needs.size <= block.size) return block;
-    // ProbeGI reaches its buffers by address, so all memory is allocated for that.
+    // ProbeGI accesses buffers by address, so all memory is allocated for that.
     const vk::MemoryAllocateFlagsInfo addressed(vk::MemoryAllocateFlagBits::eDeviceAddress);
     Block block;
     block.type = type;
@@ -52,7 +52,7 @@ MemoryPool::Block& MemoryPool::blockFor(const VkMemoryRequirements& needs, std::
 
 VkResult MemoryPool::allocate(const VkMemoryRequirements& wanted, MemoryUse use, Allocation& out) {
     VkMemoryRequirements needs = wanted;
-    needs.alignment = std::max(needs.alignment, m_granularity);  // a buffer may lie next to an image
+    needs.alignment = std::max(needs.alignment, m_granularity);  // a buffer may be next to an image
     needs.size = alignUp(needs.size, m_granularity);
     try {
         Block& block = blockFor(needs, memoryType(needs.memoryTypeBits, use));

@@ -5,8 +5,8 @@
 #include <list>
 #include <vulkan/vulkan_raii.hpp>
 
-/// A trivial allocator, standing for the engine's: large blocks of memory, each given out front to back and used again
-/// once nothing in it is alive. callbacks() lends it to ProbeGI.
+/// A trivial stand-in for the engine's allocator: large blocks, each allocated front to back and reused when nothing in
+/// it is alive. callbacks() exposes it to ProbeGI.
 class MemoryPool {
 public:
     MemoryPool(const vk::raii::PhysicalDevice& physical, const vk::raii::Device& device);

@@ -6,13 +6,13 @@
 #include "probe_set.h"
 #include "resources.h"
 
-/// Ray data that the engine traces itself, in a compute shader of its own (shaders/trace_probes.comp).
+/// Ray data that the engine traces in its own compute shader (shaders/trace_probes.comp).
 class OwnRays {
 public:
     /// For updates of `volume`, which must outlive this.
     OwnRays(const EngineDevice& engine, MemoryPool& pool, const probegi::vulkan::GpuField& volume);
 
-    /// Traces the rays of the coming update; its data is visible to compute shaders afterwards. `frame`: address of
+    /// Traces the rays of the next update; its data is visible to compute shaders afterwards. `frame`: address of
     /// FrameData.
     void record(const vk::raii::CommandBuffer& commands, const probegi::vulkan::GpuField& volume,
                 vk::DeviceAddress frame) const;

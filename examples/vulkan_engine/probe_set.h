@@ -4,7 +4,7 @@
 
 #include <vulkan/vulkan_raii.hpp>
 
-/// A descriptor set with which compute shaders of the engine read a volume of probes through probegi/query.glsl.
+/// A descriptor set with which the engine's compute shaders read a probe volume through probegi/query.glsl.
 class ProbeSet {
 public:
     explicit ProbeSet(const vk::raii::Device& device);

@@ -8,7 +8,7 @@
 #include "resources.h"
 #include "rooms.h"
 
-/// The engine's pictures: a G-buffer by rasterisation, then one compute pass that shades it and asks the probes.
+/// The engine's renderer: a rasterised G-buffer, then one compute pass that shades it and queries the probes.
 class Renderer {
 public:
     /// `size`: of the G-buffer. The picture is twice as wide: without the probes, with them.
@@ -20,7 +20,7 @@ public:
     void recordGBuffer(const vk::raii::CommandBuffer& commands, vk::DeviceAddress frame) const;
     void recordShading(const vk::raii::CommandBuffer& commands, vk::DeviceAddress frame) const;
     void recordReadBack(const vk::raii::CommandBuffer& commands) const;
-    /// What recordReadBack() read, once the command buffer has finished: linear.
+    /// The linear picture from recordReadBack(), once the command buffer has finished.
     probegi::HdrImage picture() const;
 
 private:

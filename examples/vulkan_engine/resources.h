@@ -6,7 +6,7 @@
 
 /// Buffers, images and pipelines of the engine, with memory from its pool.
 
-/// A piece of the pool that goes back to it.
+/// Memory of the pool, returned on destruction.
 class PoolMemory {
 public:
     PoolMemory(MemoryPool& pool, const VkMemoryRequirements& needs, probegi::vulkan::MemoryUse use);
@@ -20,7 +20,7 @@ private:
     probegi::vulkan::Allocation m_allocation;
 };
 
-/// A storage buffer that shaders reach by its address.
+/// A storage buffer that shaders access by address.
 struct GpuBuffer {
     GpuBuffer(const vk::raii::Device& device, MemoryPool& pool, vk::DeviceSize bytes,
               probegi::vulkan::MemoryUse use = probegi::vulkan::MemoryUse::device);

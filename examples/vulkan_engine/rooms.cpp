@@ -48,7 +48,7 @@ FrameData frameAt(float time, float aspect) {
     const glm::vec3 slide(-3.7f + 1.0f * time, 0, 1.9f);
     frame.boxes[kCrate].lower += slide;
     frame.boxes[kCrate].upper += slide;
-    // A long lens far away: both rooms as in a doll's house.
+    // A long lens from far away shows both rooms as in a doll's house.
     glm::mat4 projection = glm::perspectiveRH_ZO(glm::radians(16.8f), aspect, 1.0f, 50.0f);
     projection[1][1] *= -1;  // Vulkan's y points down
     frame.worldToClip = projection * glm::lookAt(kEye, glm::vec3(0, 1.45f, 0), glm::vec3(0, 1, 0));

@@ -6,8 +6,8 @@
 #include <array>
 #include <glm/mat4x4.hpp>
 
-/// The engine's scene: two rooms of boxes with a door between them, daylight through a hole in one roof, and a crate
-/// that is pushed about. The structs are those of shaders/rooms.glsl (scalar layout).
+/// The engine's scene: two rooms of boxes with a door between them, daylight through a hole in one roof, and a moving
+/// crate. The structs match shaders/rooms.glsl (scalar layout).
 
 struct Box {
     glm::vec3 lower, upper;  ///< metres
@@ -15,11 +15,11 @@ struct Box {
 };
 
 inline constexpr int kBoxes = 17;
-inline constexpr int kFrontWalls = 1;  ///< the first box: light knows it, the camera looks in where it stands
+inline constexpr int kFrontWalls = 1;  ///< the first box: it blocks light, but is hidden from the camera
 inline constexpr int kCrate = kBoxes - 1;
 inline constexpr glm::vec3 kEye{0, 2.9f, 17};  ///< where the camera stands, outside, with a long lens
 
-/// What shaders know of a frame.
+/// Per-frame data for shaders.
 struct FrameData {
     glm::mat4 worldToClip;
     glm::vec3 toSun;          ///< unit
@@ -29,15 +29,15 @@ struct FrameData {
     std::array<Box, kBoxes> boxes;
 };
 
-/// The engine's state at a time 0..1 of its little film: the sun climbs, the crate slides.
+/// The engine's state at a time 0..1 of its animation: the sun rises, the crate slides.
 FrameData frameAt(float time, float aspect);
 
-/// The same for ProbeGI: geometry once, lights and places as they change.
+/// The same for ProbeGI: geometry once, lights and poses as they change.
 probegi::Scene sceneOf(const FrameData& frame);
 probegi::ScenePose poseOf(const probegi::Scene& scene, const FrameData& start, const FrameData& now);
 probegi::Lighting lightingOf(const FrameData& frame);
 probegi::FieldDesc fieldDesc();
 probegi::FieldSettings fieldSettings();
 
-/// Questions all over a room (0 with the hole in its roof, 1 behind the door), in the six directions.
+/// Queries all over a room (0 with the hole in its roof, 1 behind the door), in the six directions.
 std::vector<probegi::FieldQuery> questionsIn(const FrameData& frame, int room);

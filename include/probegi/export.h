@@ -1,6 +1,6 @@
 #pragma once
 
-/// PROBEGI_API marks what a shared ProbeGI shows to programs, whatever visibility they compile with.
+/// PROBEGI_API marks the symbols that a shared ProbeGI exports, whatever visibility the program is compiled with.
 #if defined(_WIN32)
 #if defined(PROBEGI_BUILDS_SHARED)
 #define PROBEGI_API __declspec(dllexport)

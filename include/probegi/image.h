@@ -27,26 +27,26 @@ struct HdrImage {
 /// How scene-referred values become 8-bit display values.
 struct ToneMap {
     float exposure = 1.0f;  ///< factor on the linear value before the curve; > 0
-    bool filmic = false;    ///< false: clip at 1 (measurement); true: a smooth shoulder (handsome pictures)
-    bool dither = true;  ///< 8-bit files: neighbouring pixels are rounded up and down in turn, so that slow gradients
-                         ///< show no bands; what an 8-bit step holds exactly stays as it is
+    bool filmic = false;    ///< false: clip at 1 (for measurement); true: a smooth shoulder (for viewing)
+    bool dither = true;     ///< 8-bit output: ordered dithering against banding; values that 8 bits hold exactly are
+                            ///< unchanged
 };
 
-/// Display-referred value in 0..1 of a linear one: exposure, curve, sRGB transfer function.
+/// Converts a linear value to a display-referred one in 0..1: exposure, curve, sRGB transfer function.
 PROBEGI_API glm::vec3 toDisplay(glm::vec3 linear, const ToneMap& toneMap);
 
-/// The exposure at which a picture is neither too dark nor too bright: the geometric mean of its luminance, without its
-/// darkest tenth and its brightest twentieth, becomes middle grey (0.18 before the curve). A factor on the picture
-/// divides the exposure. 1 where nothing shines. What is below a thousandth of the brightest counts as black.
+/// The exposure that maps the geometric mean of the luminance, without the darkest 10 % and the brightest 5 %, to
+/// middle grey (0.18 before the curve). Scaling the picture divides the exposure. Pixels below a thousandth of the
+/// brightest count as black. 1 for a black picture.
 PROBEGI_API float autoExposure(const HdrImage& image);
 
-/// How much memory a file may fill: small ones can claim any amount. Whatever it unpacks to within 64 times its own
-/// size is always allowed.
+/// How much memory reading a file may use, since even a small file can claim any amount. Unpacking to up to 64 times
+/// the file's size is always allowed.
 struct ReadLimits {
-    /// What pixels may fill beyond that, MB (2^20 bytes); 1 to 2^20. Geometry and text, of which more is made later,
-    /// may fill a sixteenth of it.
+    /// Limit for pixels beyond that, MB (2^20 bytes); 1 to 2^20. Geometry and text, which are expanded later, may use a
+    /// sixteenth of it.
     std::uint64_t megabytes = 1024;
-    /// What the sentence of an error calls this limit; a program with an option for it gives the option's name.
+    /// What error messages call this limit; a program with an option for it gives the option's name.
     std::string name = "ReadLimits::megabytes";
 };
 

@@ -11,26 +11,26 @@
 
 namespace probegi {
 
-/// A scene from a file, and what the reader could not honour.
+/// A scene read from a file, and warnings for what is not supported.
 struct LoadedScene {
     Scene scene;                                 ///< has passed validate()
-    std::vector<std::string> warnings;           ///< one sentence each, e.g. an optional extension that was ignored
-    std::vector<std::filesystem::path> files{};  ///< all that were read: the scene, its settings, what it refers to
+    std::vector<std::string> warnings;           ///< one sentence each, e.g. an ignored optional extension
+    std::vector<std::filesystem::path> files{};  ///< every file read: the scene, its settings, all that it references
 };
 
-/// Reads glTF 2.0 (.gltf with its files beside it, or .glb). Where a file of the same stem with the ending .ini lies
-/// beside it in the form of NVIDIA's RTXGI test harness, its lights, cameras, sky and probe grid are added.
-/// A scene that lies far from the origin, where single-precision coordinates are too coarse for light, is moved there
+/// Reads glTF 2.0 (.gltf with its files beside it, or .glb). If an .ini file of the same stem, in the format of
+/// NVIDIA's RTXGI test harness, lies beside it, its lights, cameras, sky and probe grid are added.
+/// A scene so far from the origin that single-precision coordinates are too coarse is moved to the origin
 /// (Scene::origin).
 /// Errors: fileNotFound, fileUnreadable, malformed, unsupported (a required extension, named), outOfMemory.
 PROBEGI_API Result<LoadedScene> loadScene(const std::filesystem::path& path, const ReadLimits& limits = {});
 
-/// Makes a file of these bytes, which appears whole or not at all. A symbolic link stays a link: what it points to is
-/// written. What is no file but a device, a pipe or a stream of this process (/dev/null, /dev/stdout) is written to as
-/// it is. Errors: writeFailed.
+/// Writes a file atomically: it appears whole or not at all. Symbolic links are followed, not replaced. Devices, pipes
+/// and streams of this process (/dev/null, /dev/stdout) are written to directly. Errors: writeFailed.
 PROBEGI_API Result<void> writeFile(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 
-/// Whether writeFile() could write there, found without a trace: to be asked before long work. Errors: writeFailed.
+/// Checks whether writeFile() could write there, without leaving a trace; for use before long work. Errors:
+/// writeFailed.
 PROBEGI_API Result<void> checkWritable(const std::filesystem::path& path);
 
 }  // namespace probegi

@@ -8,27 +8,27 @@
 
 namespace probegi {
 
-/// When the reference stops: at the first limit that is reached; at least one must be set.
+/// What the reference renders and when it stops: at the first limit reached. At least one limit must be set.
 struct ReferenceDesc {
     PictureDesc picture;       ///< camera, size, diffuseOnly (samplesPerAxis is ignored: pixels are sampled uniformly)
     int samplesPerPixel = 64;  ///< 0: no limit
     double seconds = 0;        ///< 0: no limit
-    double relativeError = 0;  ///< stop when the mean standard error over the mean luminance is below; 0: no limit
+    double relativeError = 0;  ///< stop when mean standard error / mean luminance is below this; 0: no limit
     int maxBounces = 0;        ///< 0: unlimited (Russian roulette only)
     std::uint64_t seed = 1;
-    /// A converged field whose light guides the paths. It shapes the density of the samples only, so the expectation is
-    /// the same whatever the field holds; how much noise it takes away depends on the scene (docs/accuracy.md), and
-    /// learning takes a second or two of one processor. Null: unguided. It must outlive the call.
+    /// A converged field that guides the paths. It affects the sampling density only, so the result is unbiased
+    /// whatever the field holds. How much noise it removes depends on the scene (docs/accuracy.md); learning takes a
+    /// second or two of processor time. Null: unguided. Must outlive the call.
     const Field* guide = nullptr;
 };
 
-/// A progressive estimate: the mean, and how sure it is.
+/// A progressive estimate with its standard error.
 struct ReferencePicture {
-    Picture picture;          ///< layers as in Picture: `direct` and `indirect` split as the field splits them
-    HdrImage standardError;   ///< of color, same units
-    int samplesPerPixel = 0;  ///< done
-    double seconds = 0;       ///< in all
-    double guideSeconds = 0;  ///< of these, to learn the guide; 0 without one
+    Picture picture;         ///< layers as in Picture; `direct` and `indirect` split as in the field
+    HdrImage standardError;  ///< of `color`, in the same units
+    int samplesPerPixel = 0;
+    double seconds = 0;       ///< total
+    double guideSeconds = 0;  ///< of which learning the guide; 0 without one
 };
 
 /// Mean and standard error of the irradiance at a point.
@@ -51,7 +51,7 @@ public:
     /// Errors: invalidArgument (no stopping rule, size), cancelled, and those of the tracer.
     Result<ReferencePicture> render(const ReferenceDesc& desc) const;
 
-    /// E at each query point (toViewer is ignored), with `samples` paths a point. diffuseOnly as in PictureDesc.
+    /// E at each query point (toViewer is ignored), with `samples` paths per point. diffuseOnly as in PictureDesc.
     /// `guide` as in ReferenceDesc. Errors: invalidArgument, cancelled, and those of the tracer.
     Result<std::vector<ReferenceIrradiance>> irradiance(std::span<const FieldQuery> points, int samples,
                                                         std::uint64_t seed = 1, bool diffuseOnly = true,

@@ -17,14 +17,14 @@ namespace probegi {
 /// Why a call failed. The sentence in Error::message says what to do about it.
 enum class ErrorCode {
     invalidArgument,  ///< a parameter is outside its documented range
-    fileNotFound,     ///< the path names nothing
+    fileNotFound,     ///< nothing exists at the path
     fileUnreadable,   ///< the path exists but cannot be opened or read
     malformed,        ///< the bytes do not follow the format
     unsupported,      ///< valid input that needs a feature ProbeGI does not have
     writeFailed,      ///< the output could not be written; nothing was left half-written
-    outOfMemory,      ///< an allocation or a device refused
+    outOfMemory,      ///< an allocation on the host or the device failed
     cancelled,        ///< the progress callback asked to stop
-    deviceLost,       ///< the GPU stopped answering; make a new device, the CPU backend still works
+    deviceLost,       ///< the GPU stopped responding; create a new device (the CPU backend still works)
 };
 
 /// A failure: a code for programs, one sentence for people.
@@ -33,7 +33,7 @@ struct Error {
     std::string message{};  ///< names the file or parameter, the reason, and what to do
 };
 
-/// What Result::value() throws where there is none.
+/// Thrown by Result::value() if there is no value.
 class PROBEGI_API BadResult : public std::exception {
 public:
     explicit BadResult(Error error) : m_error(std::move(error)) {}
@@ -44,7 +44,7 @@ private:
     Error m_error;
 };
 
-/// Throws BadResult. A program that is compiled without exceptions prints the sentence and ends.
+/// Throws BadResult; in a program compiled without exceptions, prints the message and aborts.
 [[noreturn]] inline void throwBadResult(const Error& error) {
 #if defined(__cpp_exceptions)
     throw BadResult(error);
@@ -54,9 +54,8 @@ private:
 #endif
 }
 
-/// Every fallible call of the API returns one of these: a T, or the Error that says why there is none; nothing throws
-/// across the API. The members are those of std::expected (C++23) and mean the same. Compilers warn where a Result is
-/// ignored.
+/// What every fallible call of the API returns: a T, or the Error that says why there is none. Nothing throws across
+/// the API. Members are those of std::expected (C++23). Compilers warn about an ignored Result.
 template <class T>
 class [[nodiscard]] Result {
 public:
@@ -97,7 +96,7 @@ public:
     const Error& error() const& noexcept { return *std::get_if<1>(&m_state); }
     Error&& error() && noexcept { return std::move(*std::get_if<1>(&m_state)); }
 
-    /// next(value), which returns a Result, or the error.
+    /// Returns next(value), itself a Result, or the error.
     template <class Next>
     auto and_then(Next&& next) const& -> std::invoke_result_t<Next, const T&> {
         if (!has_value()) return error();
@@ -108,7 +107,7 @@ public:
         if (!has_value()) return std::move(*this).error();
         return std::invoke(std::forward<Next>(next), std::move(**this));
     }
-    /// A Result of what change(value) returns, or the error.
+    /// Returns a Result holding change(value), or the error.
     template <class Change>
     auto transform(Change&& change) const& -> Result<std::invoke_result_t<Change, const T&>> {
         if (!has_value()) return error();
@@ -137,7 +136,7 @@ private:
     std::variant<T, Error> m_state;
 };
 
-/// Done, or the Error that says why not.
+/// Success, or an Error.
 template <>
 class [[nodiscard]] Result<void> {
 public:

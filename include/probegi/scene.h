@@ -32,7 +32,7 @@ enum class Wrap : std::uint8_t { repeat, clampToEdge, mirroredRepeat };
 
 /// A use of a TextureImage by a material slot.
 struct TextureRef {
-    int image = -1;    ///< index into Scene::images; -1: no texture, the factor alone counts
+    int image = -1;    ///< index into Scene::images; -1: no texture, only the factor
     int texCoord = 0;  ///< uv set, 0 or 1
     Wrap wrapU = Wrap::repeat;
     Wrap wrapV = Wrap::repeat;
@@ -57,15 +57,15 @@ struct Material {
     TextureRef emissiveTexture{};           ///< sRGB
     AlphaMode alphaMode = AlphaMode::opaque;
     float alphaCutoff = 0.5f;  ///< for AlphaMode::mask, 0..1
-    bool doubleSided = false;  ///< false: the back is solid wall to the probes (radiance 0, shortened distance)
+    bool doubleSided = false;  ///< false: probes treat the back as solid wall (radiance 0, shortened distance)
 };
 
-/// Indexed triangles with one material. Normals, tangents and uvs are empty or as long as positions.
+/// Indexed triangles with one material. Normals, tangents and uvs are empty or the size of positions.
 struct Primitive {
     std::vector<glm::vec3> positions{};  ///< metres, mesh space
     std::vector<glm::vec3> normals{};    ///< unit; empty: the geometric normal
     std::vector<glm::vec4>
-        tangents{};  ///< xyz unit, w = handedness +-1; empty: derived from uvs where a normal map asks
+        tangents{};  ///< xyz unit, w = handedness +-1; empty: derived from uvs where a normal map needs them
     std::vector<glm::vec2> uv0;
     std::vector<glm::vec2> uv1;
     std::vector<std::uint32_t> indices{};  ///< 3 per triangle, counter-clockwise seen from the front
@@ -79,7 +79,7 @@ struct Mesh {
 
 enum class LightType : std::uint8_t { directional, point, spot };
 
-/// KHR_lights_punctual. The node's -Z axis is the direction the light travels in.
+/// KHR_lights_punctual. Light travels along the node's -Z axis.
 struct Light {
     std::string name{};
     LightType type = LightType::point;
@@ -96,14 +96,14 @@ struct Camera {
     float znear = 0.01f;      ///< metres
 };
 
-/// One place in the hierarchy. Parents come before children in Scene::nodes.
+/// A node of the hierarchy. Parents come before children in Scene::nodes.
 struct Node {
     std::string name{};
     int parent = -1;
     glm::vec3 translation{0.0f};
     glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
     glm::vec3 scale{1.0f};
-    std::optional<glm::mat4> matrix{};  ///< where given, replaces translation, rotation and scale (and is not animated)
+    std::optional<glm::mat4> matrix{};  ///< if set, replaces translation, rotation and scale (and is not animated)
     int mesh = -1;
     int light = -1;
     int camera = -1;
@@ -112,8 +112,8 @@ struct Node {
 enum class AnimationPath : std::uint8_t { translation, rotation, scale };
 enum class Interpolation : std::uint8_t { step, linear, cubicSpline };
 
-/// One keyframed property of one node. Values: xyz0 or quaternion xyzw; cubicSpline has three values a key
-/// (in-tangent, value, out-tangent), as in glTF.
+/// One keyframed property of one node. Values: xyz0 or quaternion xyzw; cubicSpline has three per key (in-tangent,
+/// value, out-tangent), as in glTF.
 struct AnimationChannel {
     int node = -1;
     AnimationPath path = AnimationPath::translation;
@@ -124,14 +124,14 @@ struct AnimationChannel {
 
 /// Light from infinitely far away.
 struct Sky {
-    glm::vec3 radiance{0.0f};  ///< W sr^-1 m^-2, 0 to 1e20; a factor on the image where there is one
+    glm::vec3 radiance{0.0f};  ///< W sr^-1 m^-2, 0 to 1e20; multiplies the image, if there is one
     HdrImage image{};  ///< equirectangular, centre column = direction -Z, top row = +Y, 0 to 1e20 with the factor;
                        ///< empty: constant
     bool textured() const { return image.width > 0; }
     bool black() const { return radiance.x <= 0 && radiance.y <= 0 && radiance.z <= 0; }
 };
 
-/// Everything that can be seen or lights something: plain data, freely editable.
+/// Everything visible or light-emitting: plain data, freely editable.
 struct Scene {
     std::string name{};
     std::vector<Mesh> meshes{};
@@ -155,7 +155,7 @@ struct Scene {
     }
 };
 
-/// A mesh somewhere in the world.
+/// A mesh placed in the world.
 struct Instance {
     int mesh = -1;
     int node = -1;
@@ -166,7 +166,7 @@ struct Instance {
 struct PlacedLight {
     LightType type = LightType::point;
     glm::vec3 position{0.0f};       ///< metres; unused for directional
-    glm::vec3 direction{0, -1, 0};  ///< unit, the way the light travels; unused for point
+    glm::vec3 direction{0, -1, 0};  ///< unit, the direction in which the light travels; unused for point
     glm::vec3 intensity{0.0f};      ///< as Light::intensity
     float range = 0.0f;             ///< metres, 0: unlimited
     float cosInner = 1.0f;
@@ -197,8 +197,8 @@ struct ScenePose {
     Bounds bounds;  ///< of all triangles, metres; zero-sized for a scene without triangles
 };
 
-/// Checks every index, array length and value of the scene. Errors: malformed, with the first thing that is wrong.
-/// Everything that consumes a Scene may rely on this having passed.
+/// Checks every index, array length and value of the scene. Errors: malformed, naming the first fault. Everything that
+/// takes a Scene relies on this having passed.
 PROBEGI_API Result<void> validate(const Scene& scene);
 
 /// Resolves hierarchy and animation at a time in seconds (clamped to the animation's span). The scene must be valid.
@@ -210,7 +210,7 @@ PROBEGI_API std::size_t triangleCount(const Scene& scene, const ScenePose& pose)
 /// A camera at `from` that looks at `at`. `yfov` in radians.
 PROBEGI_API PlacedCamera lookAt(glm::vec3 from, glm::vec3 at, float yfov = 1.0471976f);
 
-/// A camera outside the bounds that sees all of them: for scenes that bring none.
+/// A camera outside the bounds that sees all of them, for scenes without a camera.
 PROBEGI_API PlacedCamera overviewCamera(const Bounds& bounds);
 
 }  // namespace probegi

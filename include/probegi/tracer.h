@@ -13,7 +13,7 @@
 
 namespace probegi {
 
-/// A half-line. Hits closer than `near` or farther than `far` do not count.
+/// Hits closer than `near` or farther than `far` are ignored.
 struct Ray {
     glm::vec3 origin{0.0f};
     float near = 0.0f;             ///< metres
@@ -31,97 +31,95 @@ struct Hit {
     bool valid() const { return primitive >= 0; }
 };
 
-/// What a hit looks like to light: geometry and material resolved, textures sampled. Normals face the ray's origin.
+/// A shaded hit: geometry and material resolved, textures sampled. Normals face the ray's origin.
 struct Surface {
     glm::vec3 position{0.0f};
     glm::vec3 geometricNormal{0, 1, 0};  ///< unit, on the side the ray came from
-    glm::vec3 shadingNormal{0, 1, 0};    ///< unit, interpolated and normal-mapped, on the same side as the ray's origin
+    glm::vec3 shadingNormal{0, 1, 0};    ///< unit, interpolated and normal-mapped, on the side the ray came from
     glm::vec3 albedo{0.0f};              ///< base colour, 0..1
     glm::vec3 emission{0.0f};            ///< radiance towards the ray's origin, W sr^-1 m^-2 (0 on a backface)
     float metallic = 0.0f;
     float roughness = 1.0f;
-    std::int32_t material = -1;  ///< index into Scene::materials; -1: the tracer knows no materials
-    bool back = false;           ///< the ray met the back, by winding, whatever the material
+    std::int32_t material = -1;  ///< index into Scene::materials; -1: the tracer has no materials
+    bool back = false;           ///< the ray hit the back, by winding, whatever the material
     bool backface = false;       ///< the back of a single-sided material: solid wall
 };
 
-/// A triangle that sends light, in world space.
+/// An emissive triangle in world space.
 struct EmissiveTriangle {
     glm::vec3 corner{0.0f};      ///< metres
-    std::uint32_t upTo = 0;      ///< share of all power of this triangle and those before it, times 2^32 - 1
-    glm::vec3 edge1{0.0f};       ///< to the second corner; the front is where cross(edge1, edge2) points
+    std::uint32_t upTo = 0;      ///< cumulative share of the total power up to and including this triangle, times 2^32
+                                 ///< - 1
+    glm::vec3 edge1{0.0f};       ///< to the second corner; cross(edge1, edge2) points to the front
     std::int32_t material = -1;  ///< as Surface::material of its hits, >= 0
     glm::vec3 edge2{0.0f};       ///< to the third corner
 };
 
-/// The surfaces of a tracer that send light, so that a probe can look at them instead of waiting for its rays to meet
-/// them. A triangle is chosen with probability proportional to its area times the mean luminance of its material: how
-/// likely a point was to be chosen then follows from the material of a hit, without knowing which triangle it was.
+/// A tracer's emissive surfaces, so that probes can sample them directly instead of waiting for rays to hit them. A
+/// triangle is chosen with probability proportional to its area times its material's mean luminance, so the density of
+/// a point follows from the hit's material alone, whichever triangle it is on.
 struct EmitterSet {
-    std::vector<EmissiveTriangle> triangles;  ///< empty: nothing to look at
-    std::vector<float>
-        luminance;              ///< by material: of its emission, mean over its area, W sr^-1 m^-2; 0: not in the set
-    float inversePower = 0.0f;  ///< 1 over the sum of area times luminance; 0 where the set is empty
+    std::vector<EmissiveTriangle> triangles;  ///< empty: nothing to sample
+    std::vector<float> luminance;  ///< by material: mean of its emission over its area, W sr^-1 m^-2; 0: not in the set
+    float inversePower = 0.0f;     ///< 1 over the sum of area times luminance; 0 where the set is empty
 
     bool empty() const noexcept { return triangles.empty(); }
-    /// Density per square metre of choosing a point of this material; 0 where it is never chosen.
+    /// Sampling density per square metre on this material; 0 if it is never chosen.
     float density(std::int32_t material) const noexcept {
         return std::size_t(material) < luminance.size() ? luminance[std::size_t(material)] * inversePower : 0.0f;
     }
 };
 
-/// Fills what follows from triangles (corners, edges, materials) and `luminance`, which must have an entry for each of
-/// their materials. Every surface of a material whose luminance is not 0 must be among the triangles. Triangles that
-/// send nothing are kept and never chosen; where none sends anything the set is empty.
+/// Makes a set from triangles (corners, edges, materials) and `luminance`, which must have an entry for each of their
+/// materials; the rest is computed. Every surface of a material with nonzero luminance must be among the triangles.
+/// Triangles that emit nothing are kept but never chosen; if none emits, the set is empty.
 PROBEGI_API EmitterSet makeEmitterSet(std::vector<EmissiveTriangle> triangles, std::vector<float> luminance);
 
-/// The first axis of the pipeline: what a ray hits. Implementations are immutable once made (but for MovableTracer) and
-/// safe to use from many threads at once. Batches may have any length; the spans must be equally long. A tracer that
-/// failed (a lost GPU) says so: what it left in the spans is then meaningless, and whoever asked passes the error on.
+/// The first axis of the pipeline: what a ray hits. Implementations are immutable (except MovableTracer) and
+/// thread-safe. Batches may have any length; the spans must be equally long. After an error (a lost GPU) the contents
+/// of the output spans are undefined; callers pass the error on.
 class PROBEGI_API Tracer {
 public:
     virtual ~Tracer() = default;
     /// Closest hit of each ray. Alpha masks are honoured.
     virtual Result<void> closestHits(std::span<const Ray> rays, std::span<Hit> hits) const = 0;
-    /// Whether anything lies between near and far: 1 blocked, 0 free. Alpha masks are honoured.
+    /// Whether anything lies between near and far: 1 blocked, 0 clear. Alpha masks are honoured.
     virtual Result<void> occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const = 0;
-    /// Resolves valid hits; entries of missed rays are left as they are.
+    /// Resolves valid hits; entries of missed rays are not written.
     virtual Result<void> surfaces(std::span<const Ray> rays, std::span<const Hit> hits,
                                   std::span<Surface> out) const = 0;
-    /// The same with textures filtered over the cone of `spread` radians around each ray: for rays that stand alone for
-    /// a pixel, whose distant textures would shimmer. A tracer that does not filter gives what surfaces() gives.
+    /// The same with textures filtered over a cone of `spread` radians around each ray, for primary rays, whose distant
+    /// textures would otherwise alias. By default, the same as surfaces().
     virtual Result<void> filteredSurfaces(std::span<const Ray> rays, std::span<const Hit> hits, float /*spread*/,
                                           std::span<Surface> out) const {
         return surfaces(rays, hits, out);
     }
     /// Of everything that can be hit.
     virtual Bounds bounds() const = 0;
-    /// The emitters that are worth looking at, for FieldDesc::emitterSamples; null: the tracer knows none. Lives as
-    /// long as the tracer.
+    /// The emitters to sample (FieldDesc::emitterSamples); null: none known. Valid as long as the tracer.
     virtual const EmitterSet* emitters() const { return nullptr; }
 };
 
-/// The lights that are not surfaces: punctual lights and the sky.
+/// Lights other than emissive surfaces: punctual lights and the sky.
 struct Lighting {
     std::vector<PlacedLight> lights;
     Sky sky;
 };
 
-/// A Tracer whose instances move: doors, lifts, whatever keeps its shape.
+/// A Tracer whose instances can move rigidly or be scaled, but not deform.
 class PROBEGI_API MovableTracer : public Tracer {
 public:
-    /// Moves the movable instances to where `pose` has them; all others stay. The trees over the triangles are kept,
-    /// only the one over the instances is made anew, so it costs little. Must not run beside any other call of the
-    /// tracer. What a probe knows of distances follows slowly: see FieldEvent::largeObjectChange.
-    /// Errors: invalidArgument (the pose is of another scene, or flattens an instance), outOfMemory. The tracer is then
-    /// as it was.
+    /// Moves the movable instances to their transforms in `pose`; all others stay. Cheap: only the top-level tree is
+    /// rebuilt. Must not run concurrently with any other call of the tracer. The field's distances follow slowly: see
+    /// FieldEvent::largeObjectChange. Errors: invalidArgument (the pose is of another scene, or flattens an instance),
+    /// outOfMemory; the tracer is then unchanged.
     virtual Result<void> setPose(const ScenePose& pose) = 0;
 };
 
-/// Which instances a tracer keeps apart so that they can move; all others are merged where that is faster.
+/// Which instances stay separate so that they can move; the others may be merged for speed.
 struct MovableDesc {
-    bool animated = true;  ///< those of nodes that the scene's animations move
-    /// Nodes that move though no animation does; their children move with them. Read during the call only.
+    bool animated = true;  ///< instances of nodes that the scene's animations move
+    /// Further nodes that can move, with their children. Read during the call only.
     std::span<const int> nodes{};
 };
 
@@ -131,7 +129,7 @@ struct MovableDesc {
 PROBEGI_API Result<std::unique_ptr<Tracer>> makeEmbreeTracer(const Context& context, const Scene& scene,
                                                              const ScenePose& pose);
 
-/// The same for a scene in which things move. Errors: those, and invalidArgument (a node that the scene has not).
+/// The same for a scene with moving instances. Errors: as above, and invalidArgument (no such node in the scene).
 PROBEGI_API Result<std::unique_ptr<MovableTracer>> makeMovableEmbreeTracer(const Context& context, const Scene& scene,
                                                                            const ScenePose& pose,
                                                                            const MovableDesc& desc = {});

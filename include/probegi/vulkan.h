@@ -23,14 +23,14 @@
 /// of render passes; compute pipeline, descriptor sets and push constants of the command buffer are not kept. What a
 /// command buffer uses must live until it has finished.
 ///
-/// A program without a device opens one (Device::open) and uses what the CPU backend offers, on the GPU: makeTracer(),
+/// A program without a device opens one (Device::open) and uses the CPU backend's API on the GPU: makeTracer(),
 /// makeField(), renderPicture(). These submit and wait.
 namespace probegi::vulkan {
 
-/// One Vulkan device of this machine.
+/// A Vulkan device of this machine.
 struct DeviceInfo {
     int index = 0;       ///< for OpenDesc::device
-    std::string name{};  ///< as the driver gives it
+    std::string name{};  ///< as reported by the driver
     std::string driver{};
     std::string type{};  ///< "discrete GPU", "integrated GPU", "virtual GPU", "software", "other"
     std::string api{};   ///< Vulkan version, "1.3.230"
@@ -39,7 +39,7 @@ struct DeviceInfo {
     bool usable() const { return missing.empty(); }
 };
 
-/// All devices, in the order of the loader. Errors: unsupported (no Vulkan loader on this machine, or no driver).
+/// All devices, in the loader's order. Errors: unsupported (no Vulkan loader on this machine, or no driver).
 PROBEGI_API Result<std::vector<DeviceInfo>> listDevices();
 
 /// What an allocation will be used for.
@@ -56,16 +56,17 @@ struct Allocation {
     void* userData = nullptr;  ///< the allocator's own
 };
 
-/// An engine's memory allocator. Empty functions: the library calls vkAllocateMemory for each buffer and image, about
-/// a dozen for a volume and two dozen for a scene. All memory must be allocated with
-/// VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, and buffers and images share it: pieces of one VkDeviceMemory keep
-/// bufferImageGranularity apart. `allocate` says why it fails by its result, and throws nothing. Give both or neither.
+/// An engine's memory allocator. Empty functions: the library calls vkAllocateMemory for each buffer and image, about a
+/// dozen for a volume and two dozen for a scene. All memory must be allocated with
+/// VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT. Buffers and images may share a VkDeviceMemory, so suballocations must respect
+/// bufferImageGranularity. `allocate` reports failure by its result and must not throw. Set both functions or neither.
 struct Allocator {
     std::function<VkResult(const VkMemoryRequirements&, MemoryUse, Allocation&)> allocate{};
     std::function<void(const Allocation&)> free{};
 };
 
-/// An engine's device, as it was made. All handles stay the engine's and must outlive every object of this library.
+/// An engine's device and how it was created. The engine keeps ownership of all handles, which must outlive every
+/// object of this library.
 ///
 /// Needed: Vulkan 1.3 on instance and device; the features synchronization2, bufferDeviceAddress, scalarBlockLayout
 /// and shaderStorageImageExtendedFormats; a queue family with compute; the format R16G16B16A16_SFLOAT and R16G16_UNORM
@@ -76,40 +77,40 @@ struct AdoptDesc {
     VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
     std::uint32_t queueFamily = 0;  ///< of the command buffers that passes are recorded into
-    /// What the device was made with: its extensions and features (pNext chain or pEnabledFeatures) are read during
-    /// the call. Required.
+    /// The device's create info; extensions and features (pNext chain or pEnabledFeatures) are read during the call.
+    /// Required.
     const VkDeviceCreateInfo* createInfo = nullptr;
     std::span<const char* const> instanceExtensions{};        ///< enabled ones
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  ///< null: that of the system's loader
     Allocator allocator{};
-    /// Folder in which compiled pipelines are kept between runs; empty: they are compiled anew. A damaged file in it is
-    /// ignored, a folder that cannot be written is reported to the context's log.
+    /// Folder for the pipeline cache; empty: none, pipelines are compiled every run. A damaged cache file is ignored; a
+    /// folder that cannot be written is reported in the context's log.
     std::filesystem::path cacheFolder{};
 };
 
-/// How the library opens a device of its own.
+/// How Device::open creates a device.
 struct OpenDesc {
-    /// An index or part of a name, as listDevices() gives them; empty: the first usable discrete GPU, or else
-    /// integrated, virtual, software one.
+    /// An index or part of a name from listDevices(); empty: the first usable device, discrete GPUs before integrated,
+    /// virtual and software ones.
     std::string device{};
-    bool rayQuery = true;     ///< enable ray query where the device has it
+    bool rayQuery = true;     ///< enable ray query if available
     bool validation = false;  ///< Khronos validation layer with synchronisation validation; messages go to the log
     std::filesystem::path cacheFolder{};                      ///< as AdoptDesc::cacheFolder
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  ///< null: that of the system's loader
 };
 
-/// A device and what the library keeps for it: functions, pipelines, memory. Cheap to copy (shared handle). Calls on
-/// one Device from several threads must be ordered by the caller; two Devices are independent.
+/// A device with the library's functions, pipelines and memory for it. Cheap to copy (shared handle). The caller must
+/// serialise calls on one Device; Devices are independent of each other.
 class PROBEGI_API Device {
 public:
     /// Errors: invalidArgument (a handle is missing), unsupported (names the missing version, feature or format),
     /// outOfMemory.
     static Result<Device> adopt(const Context& context, const AdoptDesc& desc);
-    /// Errors: unsupported (no loader, no device, no such device, or what it lacks), outOfMemory.
+    /// Errors: unsupported (no loader, no such device, or what the device lacks), outOfMemory.
     static Result<Device> open(const Context& context, const OpenDesc& desc = {});
 
     const DeviceInfo& info() const noexcept;
-    bool rayQuery() const noexcept;  ///< whether TracerKind::rayQuery is possible
+    bool rayQuery() const noexcept;  ///< whether TracerKind::rayQuery is available
     /// Validation messages so far (OpenDesc::validation).
     int validationMessages() const noexcept;
     /// Writes the compiled pipelines to the cache folder; done by the destructor of the last handle as well.
@@ -129,7 +130,7 @@ struct PassTime {
     double milliseconds = 0;
 };
 
-/// GPU timestamps around passes. Give one to record functions, read it once the command buffer has finished.
+/// GPU timestamps around passes. Pass one to record functions and read it when the command buffer has finished.
 class PROBEGI_API Profiler {
 public:
     /// `maxPasses` 1..1024. Errors: outOfMemory. A queue family without timestamps gives an empty list, not an error.
@@ -138,9 +139,9 @@ public:
     Profiler& operator=(Profiler&&) noexcept;
     ~Profiler();
 
-    /// Forgets what was recorded. Record it before the passes of each frame.
+    /// Resets the timestamps. Record it before the passes of each frame.
     void recordReset(VkCommandBuffer commands);
-    /// Encloses what is recorded between the two calls; passes may not nest. Beyond maxPasses they are not timed.
+    /// Times what is recorded between the two calls; passes may not nest. Passes beyond maxPasses are not timed.
     void recordBegin(VkCommandBuffer commands, const char* name);
     void recordEnd(VkCommandBuffer commands);
     /// Milliseconds of each pass, in order. Unchecked: the command buffer must have finished. Errors: deviceLost.
@@ -153,29 +154,29 @@ private:
     std::unique_ptr<Impl> m_impl;
 };
 
-/// Second half of the first axis: how triangles are traced on the GPU.
+/// How triangles are traced on the GPU.
 enum class TracerKind : std::uint8_t {
-    automatic,  ///< ray query where the device has it in hardware, else the BVH
-    bvh,        ///< the library's own wide, quantised BVH in compute: any device
+    automatic,  ///< ray query where it is in hardware, else the BVH
+    bvh,        ///< the library's own wide, quantised BVH in compute; any device
     rayQuery,   ///< VK_KHR_ray_query
 };
 
 struct GpuSceneDesc {
     TracerKind tracer = TracerKind::automatic;
-    /// Keep the instances of animated nodes apart, so that recordPose() can move them; otherwise meshes that are placed
-    /// once are merged, which traces a little faster.
+    /// Keep the instances of animated nodes separate so that recordPose() can move them. Otherwise meshes with one
+    /// instance are merged, which traces slightly faster.
     bool movable = false;
-    /// Nodes that recordPose() can move though no animation does: an engine's own moving objects. Their children move
-    /// with them. Read during the call only.
+    /// Further nodes that recordPose() can move, with their children: objects moved by the engine. Read during the call
+    /// only.
     std::span<const int> movableNodes{};
 };
 
-/// A scene's triangles, materials and textures in GPU memory, with what the tracer needs to find hits.
+/// A scene's triangles, materials, textures and acceleration structures in GPU memory.
 class PROBEGI_API GpuScene {
 public:
     /// Builds the BVH on the context's threads, allocates, and fills staging memory. The scene must be valid; it is
-    /// read during the call only. Errors: outOfMemory, unsupported (ray query asked for and not there), invalidArgument
-    /// (a movable node that the scene has not).
+    /// read during the call only. Errors: outOfMemory, unsupported (ray query requested but unavailable),
+    /// invalidArgument (no such movable node in the scene).
     static Result<GpuScene> create(const Context& context, const Device& device, const Scene& scene,
                                    const ScenePose& pose, const GpuSceneDesc& desc = {});
     GpuScene(GpuScene&&) noexcept;
@@ -183,18 +184,17 @@ public:
     ~GpuScene();
 
     /// Copies everything to the GPU and builds acceleration structures. Once, before any other use. Ends with a barrier
-    /// to compute shaders. Errors: invalidArgument (after releaseStaging(), there is nothing left to copy),
-    /// outOfMemory.
+    /// to compute shaders. Errors: invalidArgument (after releaseStaging()), outOfMemory.
     Result<void> recordUpload(VkCommandBuffer commands);
     /// Frees the staging memory. The command buffer of recordUpload() must have finished.
     void releaseStaging() noexcept;
-    /// Moves the instances of GpuSceneDesc::movable and movableNodes, and refits the top level. Orders itself against
-    /// compute work before and after it in the queue. Errors: invalidArgument (the pose is of another scene).
+    /// Moves the instances of GpuSceneDesc::movable and movableNodes, and refits the top level. Includes barriers
+    /// against compute work before and after it in the queue. Errors: invalidArgument (the pose is of another scene).
     Result<void> recordPose(VkCommandBuffer commands, const ScenePose& pose);
 
     TracerKind tracer() const noexcept;  ///< never automatic
     Bounds bounds() const noexcept;
-    std::size_t bytes() const noexcept;  ///< of GPU memory, without staging
+    std::size_t bytes() const noexcept;  ///< of GPU memory, excluding staging
 
     struct Impl;
     Impl& impl() const noexcept { return *m_impl; }
@@ -207,17 +207,17 @@ private:
 /// Punctual lights and sky in GPU memory.
 class PROBEGI_API GpuLighting {
 public:
-    /// Room for at least `maxLights` lights (more where the lighting has more). Errors: outOfMemory.
+    /// Capacity for at least `maxLights` lights, or as many as `lighting` has. Errors: outOfMemory.
     static Result<GpuLighting> create(const Device& device, const Lighting& lighting, int maxLights = 16);
     GpuLighting(GpuLighting&&) noexcept;
     GpuLighting& operator=(GpuLighting&&) noexcept;
     ~GpuLighting();
 
-    /// As GpuScene's.
+    /// As for GpuScene.
     Result<void> recordUpload(VkCommandBuffer commands);
     void releaseStaging() noexcept;
-    /// New lights and a new factor for the sky, from the command buffer itself. The sky's image stays as it was made.
-    /// Errors: invalidArgument (more lights than there is room for).
+    /// Replaces the lights and the sky's factor, with the data in the command buffer. The sky's image cannot change.
+    /// Errors: invalidArgument (more lights than the capacity).
     Result<void> recordUpdate(VkCommandBuffer commands, const Lighting& lighting);
     std::size_t bytes() const noexcept;
 
@@ -229,15 +229,15 @@ private:
     std::unique_ptr<Impl> m_impl;
 };
 
-/// Part of a storage buffer that the caller fills and the library reads.
+/// Part of a storage buffer, written by the caller and read by the library.
 struct BufferRange {
     VkDeviceAddress address = 0;  ///< a multiple of 4
-    VkDeviceSize bytes = 0;       ///< from there on that may be read; 0: an empty range
+    VkDeviceSize bytes = 0;       ///< readable from `address` on; 0: an empty range
 
     bool empty() const noexcept { return bytes == 0; }
 };
 
-/// Descriptors that `probegi/query.glsl` reads, from `PROBEGI_BINDING` on, in this order.
+/// Number of descriptors of `probegi/query.glsl`, from `PROBEGI_BINDING` on.
 inline constexpr std::uint32_t kQueryBindings = 4;
 
 /// A field's probes on the GPU: atlases, and the passes that update and query them. The same field as the CPU's: same
@@ -263,13 +263,13 @@ public:
     /// itself against what comes before and after in the queue; nothing where nothing has changed. Errors: outOfMemory.
     Result<void> recordSettings(VkCommandBuffer commands);
 
-    /// Clears the probes and begins at frame 0. Once before any other use, and whenever the probes shall forget
-    /// (another level). Orders itself against what comes before and after in the queue. Errors: outOfMemory.
+    /// Clears the probes and restarts at frame 0. Record it once before any other use, and to discard all light (a new
+    /// level). Includes barriers before and after. Errors: outOfMemory.
     Result<void> recordClear(VkCommandBuffer commands);
 
     /// One update with the library's rays: trace, shade with the lighting and last frame's field, blend. Begins and
-    /// ends with a barrier over all commands, so that reads of the volume before and after it in the queue need none of
-    /// their own. Errors: outOfMemory (the ray data's buffer, made by the first call).
+    /// ends with a full barrier, so reads of the volume in the same queue need none. Errors: outOfMemory (the first
+    /// call allocates the ray data buffer).
     Result<void> recordUpdate(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,
                               Profiler* profiler = nullptr);
 
@@ -285,9 +285,8 @@ public:
                               Profiler* profiler = nullptr);
 
     /// Irradiance at `count` points, at most 2^30. `queries`: address of FieldQuery[count] (36 bytes each);
-    /// `irradiance`: address of vec3[count] (12 bytes each), W m^-2; multiples of 4. The caller orders its own buffers
-    /// before and after: compute shader.
-    /// Errors: outOfMemory (compiling the pass, the first time).
+    /// `irradiance`: address of vec3[count] (12 bytes each), W m^-2; multiples of 4. The caller synchronises these
+    /// buffers with the compute shader stage, before and after. Errors: outOfMemory (the first call compiles the pass).
     Result<void> recordQuery(VkCommandBuffer commands, VkDeviceAddress queries, VkDeviceAddress irradiance,
                              std::uint32_t count, Profiler* profiler = nullptr);
 
@@ -307,41 +306,41 @@ private:
     std::unique_ptr<Impl> m_impl;
 };
 
-/// One entry of a G-buffer that lies in a storage buffer, and what recordShading() makes of it. 100 bytes, no gaps.
+/// One entry of a G-buffer in a storage buffer, and recordShading()'s results. 100 bytes, no padding.
 struct ShadingSample {
-    /// What is seen there; only surfaces are shaded.
+    /// What is visible there; only surfaces are shaded.
     enum Kind : std::int32_t { sky = 0, surface = 1, backface = 2 };
 
     glm::vec3 position{0.0f};
     std::int32_t kind = sky;
     glm::vec3 viewDirection{0, 0, -1};   ///< unit, from the viewer to the position
-    float distance = 0;                  ///< metres from the viewer; handed through
+    float distance = 0;                  ///< metres from the viewer; passed through
     glm::vec3 geometricNormal{0, 1, 0};  ///< unit, on the viewer's side
     float metallic = 0;                  ///< 0..1
     glm::vec3 shadingNormal{0, 1, 0};    ///< unit, on the viewer's side
     float roughness = 1;                 ///< 0..1, perceptual
     glm::vec3 albedo{0.0f};              ///< base colour, 0..1
-    glm::vec3 direct{0.0f};              ///< in: emission; out: that and the light of punctual lights, W sr^-1 m^-2
+    glm::vec3 direct{0.0f};              ///< in: emission; out: plus light of punctual lights, W sr^-1 m^-2
     glm::vec3 indirect{0.0f};            ///< out: irradiance E of the field, W m^-2; radiance is albedo * E / pi
 };
 
 /// Deferred shading of `count` samples at the address of ShadingSample[count] (a multiple of 4, at most 2^30): punctual
 /// lights with shadow rays and the metallic-roughness material, then the field (null: none). The caller makes the
-/// samples visible to compute shaders before and orders its own reads after: compute shader writes.
-/// Errors: outOfMemory (compiling the passes, the first time), invalidArgument (objects of different devices).
+/// samples visible to compute shaders before, and synchronises its own reads with the compute shader writes after.
+/// Errors: outOfMemory (the first call compiles the passes), invalidArgument (objects of different devices).
 PROBEGI_API Result<void> recordShading(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,
                                        GpuField* field, VkDeviceAddress samples, std::uint32_t count,
                                        bool diffuseOnly = false, Profiler* profiler = nullptr);
 
-/// A picture's linear values to 8-bit sRGB through the tone map, dithered as it says: `linear` is the address of
-/// vec3[width * height], row by row, `display` of as many std::uint32_t, red in the lowest byte, alpha 255; at most
-/// 2^30 pixels. Ordered by the caller as above. Errors: outOfMemory.
+/// Tone-maps linear values to 8-bit sRGB, dithered if `toneMap` says so. `linear` is the address of vec3[width *
+/// height], row by row; `display` of as many std::uint32_t, red in the lowest byte, alpha 255; at most 2^30 pixels.
+/// Synchronised by the caller as above. Errors: outOfMemory.
 PROBEGI_API Result<void> recordToneMap(VkCommandBuffer commands, const Device& device, VkDeviceAddress linear,
                                        VkDeviceAddress display, std::uint32_t width, std::uint32_t height,
                                        const ToneMap& toneMap, Profiler* profiler = nullptr);
 
-/// Triangles traced on the GPU: closestHits(), occluded() and surfaces() upload, dispatch and wait, so they want large
-/// batches; a Field of the same device traces without leaving the GPU. They fail with deviceLost or outOfMemory. The
+/// Triangles traced on the GPU: closestHits(), occluded() and surfaces() upload, dispatch and wait, so large batches
+/// are best; a Field of the same device traces without leaving the GPU. They fail with deviceLost or outOfMemory. The
 /// scene must be valid and outlive the tracer. Errors: outOfMemory, unsupported.
 PROBEGI_API Result<std::unique_ptr<Tracer>> makeTracer(const Context& context, const Device& device, const Scene& scene,
                                                        const ScenePose& pose, const GpuSceneDesc& desc = {});
@@ -352,18 +351,18 @@ PROBEGI_API Result<std::unique_ptr<Tracer>> makeTracer(const Context& context, c
 PROBEGI_API Result<Field> makeField(const Context& context, const Device& device, const FieldDesc& desc,
                                     const FieldSettings& settings = {});
 
-/// GPU time of each pass of the field's last update and of its last batch of queries. Empty for a field of another
-/// backend, or where the device has no timestamps.
+/// GPU time of each pass of the field's last update and last batch of queries. Empty for other backends, or if the
+/// device has no timestamps.
 PROBEGI_API std::vector<PassTime> lastPassTimes(const Field& field);
 
 /// As probegi::renderPicture, on the GPU: primary rays, direct light with shadow rays, query, resolve. `tracer` must be
-/// one of makeTracer() and `field` (may be null) one of makeField(), both on this device.
+/// from makeTracer() and `field` (may be null) from makeField(), both on this device.
 /// Errors: invalidArgument (size; tracer or field of another backend), outOfMemory, deviceLost, cancelled.
 PROBEGI_API Result<RenderedPicture> renderPicture(const Context& context, const Device& device, const Tracer& tracer,
                                                   const Lighting& lighting, const Field* field,
                                                   const PictureDesc& desc);
 
-/// 8-bit sRGB through the tone map, four bytes a pixel, on the GPU. Errors: outOfMemory, deviceLost.
+/// Tone-maps to 8-bit sRGB on the GPU, four bytes per pixel. Errors: outOfMemory, deviceLost.
 PROBEGI_API Result<std::vector<std::uint8_t>> toneMapImage(const Device& device, const HdrImage& image,
                                                            const ToneMap& toneMap);
 

@@ -10,7 +10,7 @@
 
 namespace probegi {
 
-/// A box that contains nothing and grows.
+/// The empty box.
 inline constexpr Bounds kNothing{glm::vec3(std::numeric_limits<float>::infinity()),
                                  glm::vec3(-std::numeric_limits<float>::infinity())};
 
@@ -18,7 +18,7 @@ inline Bounds united(const Bounds& a, const Bounds& b) {
     return {glm::min(a.lower, b.lower), glm::max(a.upper, b.upper)};
 }
 
-/// What the tree is built over.
+/// An item of the tree.
 struct BuildItem {
     Bounds box;
     std::uint32_t id;  ///< the caller's
@@ -38,13 +38,13 @@ struct BinaryTree {
     std::vector<std::uint32_t> order;  ///< ids
 };
 
-/// By the surface area heuristic (Embree's builder); balanced where ProbeGI was built without Embree. Items must not be
-/// none. Errors: outOfMemory, invalidArgument.
+/// By the surface area heuristic (Embree's builder); median splits if built without Embree. There must be at least one
+/// item. Errors: outOfMemory, invalidArgument.
 Result<BinaryTree> buildBinaryTree(const Context& context, std::span<const BuildItem> items);
-/// Whether buildBinaryTree() has a heuristic.
+/// Whether buildBinaryTree() uses the heuristic.
 bool treesFollowAHeuristic() noexcept;
 
-/// Halves the items at each level: as flat as a tree can be, for input that drives the heuristic into the depth.
+/// Median splits: minimum depth, for input on which the heuristic gets too deep.
 BinaryTree buildBalancedTree(std::span<const BuildItem> items);
 
 }  // namespace probegi

@@ -8,8 +8,8 @@ namespace {
 
 constexpr int kWidth = 8;
 
-/// What becomes of a binary node. `leftShare[i]`: standing for up to i roots, it hands so many to its left child and
-/// the rest to the right; 0: it needs no more than i - 1 of them.
+/// The choice for a binary node. `leftShare[i]`: of up to i roots, how many it gives to its left child, the rest to the
+/// right; 0: it needs at most i - 1.
 struct Choice {
     bool leaf = false;
     std::array<std::uint8_t, kWidth + 1> leftShare{};
@@ -80,7 +80,7 @@ private:
         int count = 0;
     };
 
-    /// The binary nodes that stand for `node` where it may have up to `share` roots.
+    /// Collects up to `share` roots that replace `node`.
     void gather(std::uint32_t node, int share, Roots& roots) const {
         const Choice& choice = m_choices[node];
         while (share > 1 && share < kWidth && choice.leftShare[std::size_t(share)] == 0) --share;
@@ -93,9 +93,9 @@ private:
         gather(m_tree.nodes[node].right, share - left, roots);
     }
 
-    using Slots = std::array<int, kWidth>;  // which root stands in a slot; -1: none
+    using Slots = std::array<int, kWidth>;  // root in each slot; -1: none
 
-    /// Section 3.2: bit a of a slot's number says that its child lies towards +a. Greedy, then better by exchanges.
+    /// Section 3.2: bit a of a slot's number means that its child lies towards +a. Greedy, then improved by swaps.
     Slots assignSlots(const Roots& roots, glm::vec3 centre) const {
         std::array<std::array<float, kWidth>, kWidth> gain{};  // [root][slot]
         for (int r = 0; r < roots.count; ++r) {
@@ -142,7 +142,7 @@ private:
         m_wide.levels = std::max(m_wide.levels, level);
         Roots roots;
         if (m_tree.nodes[node].count == 1 || (level == 1 && m_choices[node].leaf))
-            roots = {{node}, 1};  // the root of a tree is a node even where a leaf would do
+            roots = {{node}, 1};  // a tree's root is a node even if a leaf would do
         else
             gather(node, kWidth, roots);
         const Slots slots = assignSlots(roots, m_tree.nodes[node].box.centre());
@@ -178,7 +178,7 @@ WideTree collapseByLevels(const BinaryTree& balanced, int maxLeafSize) {
     std::vector<Choice> choices(balanced.nodes.size());
     for (std::size_t n = 0; n < choices.size(); ++n) {
         choices[n].leaf = int(balanced.nodes[n].count) <= maxLeafSize;
-        // A leaf stays whole; everything else is shared out evenly.
+        // A leaf stays whole; everything else is divided evenly.
         if (!choices[n].leaf) choices[n].leftShare = {0, 0, 1, 0, 2, 0, 0, 0, 4};
     }
     return Emitter(balanced, choices).take();

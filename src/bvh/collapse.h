@@ -9,13 +9,13 @@
 
 namespace probegi {
 
-/// What a ray pays, in visits of a node.
+/// Traversal costs, in node visits.
 struct CollapseCosts {
-    float leafItem;   ///< for an item of a leaf
+    float leafItem;   ///< per item of a leaf
     int maxLeafSize;  ///< <= kernels::kBvhLeafSize
 };
 
-/// What stands in a slot of a wide node: an inner node, or a leaf of items [first, first + count) of the wide order.
+/// A slot of a wide node: an inner node, or a leaf of items [first, first + count) of the wide order.
 struct WideChild {
     Bounds box = kNothing;
     std::uint32_t first = 0;
@@ -29,18 +29,18 @@ struct WideNode {
     std::array<WideChild, 8> slots{};
 };
 
-/// Parents stand before their children, children of one node side by side in the order of their slots; so do items of
-/// one node's leaves in `order`.
+/// Parents precede their children; children of a node are adjacent, in slot order, as are the items of its leaves in
+/// `order`.
 struct WideTree {
     std::vector<WideNode> nodes;
     std::vector<std::uint32_t> order;
     int levels = 0;
 };
 
-/// Joins binary nodes to wide ones of least expected cost (Ylitie, Karras, Laine 2017, section 3.3).
+/// Merges binary nodes into wide ones of minimum expected cost (Ylitie, Karras, Laine 2017, section 3.3).
 WideTree collapse(const BinaryTree& tree, const CollapseCosts& costs);
 
-/// Three levels of a balanced tree become one, so there are log8 of the items of them.
+/// Merges three levels of a balanced tree into one: log8(items) levels.
 WideTree collapseByLevels(const BinaryTree& balanced, int maxLeafSize);
 
 }  // namespace probegi

@@ -16,7 +16,7 @@ struct BvhRelease {
     void operator()(RTCBVH bvh) const noexcept { rtcReleaseBVH(bvh); }
 };
 
-/// What Embree's builder makes of a split or an item; its boxes are not kept, they follow from the items'.
+/// Node of Embree's builder, a split or an item. Boxes are not kept; they follow from the items'.
 struct EmbreeNode {
     EmbreeNode* children[2];  ///< null: a leaf
     unsigned item;
@@ -39,7 +39,7 @@ void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pri
     return leaf;
 }
 
-/// Depth that the heuristic may use before it must halve; what is deeper is caught when the tree is collapsed.
+/// Maximum depth before Embree switches to median splits; deeper trees are caught when collapsing.
 constexpr unsigned kMaxDepth = 192;
 
 RTCBuildArguments buildArguments(std::vector<RTCBuildPrimitive>& primitives, RTCBVH bvh) {
@@ -78,12 +78,12 @@ Result<BinaryTree> buildBinaryTree(const Context& context, std::span<const Build
     }
     const RTCBuildArguments args = buildArguments(primitives, bvh.get());
     void* root = nullptr;
-    // Within the arena Embree's tasks keep to the context's threads.
+    // Within the arena Embree's tasks use the context's threads.
     runInside(context, [&] { root = rtcBuildBVH(&args); });
     const RTCError error = rtcGetDeviceError(device.get());
     if (error == RTC_ERROR_OUT_OF_MEMORY)
         return fail(ErrorCode::outOfMemory, "not enough memory to build the BVH; use fewer triangles");
-    // Too deep for Embree, or an error that it has no name for: a flat tree is always possible.
+    // Too deep for Embree, or an unknown error: a balanced tree is always possible.
     if (!root) return buildBalancedTree(items);
     BinaryTree tree = emptyTree(items.size());
     flatten(tree, *static_cast<const EmbreeNode*>(root), items);

@@ -21,7 +21,7 @@ std::uint32_t metaOf(const BvhNode& node, int slot) {
     return (node.meta[slot >> 2] >> (8 * (slot & 3))) & 255u;
 }
 
-/// Smallest e so that 255 steps of 2^e cover the extent, within what a normal float can hold.
+/// Smallest e such that 255 steps of 2^e cover the extent, within the range of normal floats.
 int stepExponent(double extent) {
     int e = -kExponentBias + 1;
     if (extent > 0.0) e = std::max(e, std::ilogb(extent / 255.0));
@@ -29,7 +29,7 @@ int stepExponent(double extent) {
     return e;
 }
 
-/// One axis of a node: floor and ceiling, so that a quantised box holds the exact one.
+/// One axis of a node: rounded outwards, so that a quantised box contains the exact one.
 void fitAxis(BvhNode& node, int axis, const Bounds& box, const std::array<Bounds, 8>& children) {
     const std::array<glm::uvec2*, 3> lowers{&node.lowerX, &node.lowerY, &node.lowerZ};
     const std::array<glm::uvec2*, 3> uppers{&node.upperX, &node.upperY, &node.upperZ};
@@ -39,7 +39,7 @@ void fitAxis(BvhNode& node, int axis, const Bounds& box, const std::array<Bounds
     node.exponents |= std::uint32_t(e + kExponentBias) << (8 * axis);
     for (int slot = 0; slot < 8; ++slot) {
         const Bounds& child = children[std::size_t(slot)];
-        // Inside out where there is nothing.
+        // Inverted if empty.
         std::uint32_t lower = 255, upper = 0;
         if (child.lower[axis] <= child.upper[axis]) {
             lower = std::uint32_t(std::floor(std::ldexp(double(child.lower[axis]) - origin, -e)));

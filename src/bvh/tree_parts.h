@@ -4,7 +4,7 @@
 
 namespace probegi {
 
-// How builders put a BinaryTree together, children first.
+// Helpers for building a BinaryTree, children first.
 
 inline BinaryTree emptyTree(std::size_t items) {
     BinaryTree tree;
@@ -13,7 +13,7 @@ inline BinaryTree emptyTree(std::size_t items) {
     return tree;
 }
 
-/// Joins the two last subtrees, of which `left` is the first.
+/// Joins the last two subtrees, of which `left` is the first.
 inline std::uint32_t join(BinaryTree& tree, std::uint32_t left, std::uint32_t right) {
     const BinaryNode &a = tree.nodes[left], &b = tree.nodes[right];
     const BinaryNode parent{united(a.box, b.box), a.first, a.count + b.count, left, right};

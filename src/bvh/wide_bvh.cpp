@@ -16,7 +16,7 @@ namespace {
 using kernels::BvhNode;
 using kernels::BvhTriangle;
 
-/// As large as Embree takes: squares of twice this are finite.
+/// Embree's limit: squares of twice this are finite.
 constexpr float kLargest = 1.844e18f;
 
 bool usable(const glm::vec3& p) {
@@ -37,7 +37,7 @@ struct Corners {
     }
 };
 
-/// False where an index is out of range.
+/// False if an index is out of range.
 bool readCorners(const TriangleSoup& soup, std::size_t triangle, Corners& out) {
     std::uint32_t index[3];
     std::memcpy(index, static_cast<const std::byte*>(soup.triangles) + triangle * soup.triangleStride, sizeof index);
@@ -49,7 +49,7 @@ bool readCorners(const TriangleSoup& soup, std::size_t triangle, Corners& out) {
     return true;
 }
 
-/// The triangle as the traversal reads it; one that cannot be hit is shrunk to a point.
+/// The triangle in the traversal's format; one that cannot be hit is collapsed to a point.
 BvhTriangle makeTriangle(const TriangleSoup& soup, int primitive, int geometry) {
     Corners c{};
     if (!readCorners(soup, std::size_t(primitive), c) || !c.canBeHit()) c = {};
@@ -66,9 +66,10 @@ bool usable(const Bounds& box) {
            box.lower.z <= box.upper.z;
 }
 
-/// The paper's. From 0.15 to 1.2 nothing moves by more than a few per cent on Sponza but the number of nodes (a third).
+/// The paper's. From 0.15 to 1.2 nothing changes by more than a few per cent on Sponza except the number of nodes (a
+/// third).
 constexpr CollapseCosts kTriangleCosts{.leafItem = 0.3f, .maxLeafSize = int(kernels::kBvhLeafSize)};
-/// An instance costs the visit of a root at least.
+/// An instance costs at least the visit of a root.
 constexpr CollapseCosts kInstanceCosts{.leafItem = 1.5f, .maxLeafSize = 1};
 
 Result<WideTree> buildWideTree(const Context& context, std::span<const BuildItem> items, const CollapseCosts& costs,
@@ -83,7 +84,7 @@ Result<WideTree> buildWideTree(const Context& context, std::span<const BuildItem
     return wide;
 }
 
-/// Ids of triangles of two geometries in one number space.
+/// Appends triangles of two geometries with distinct ids.
 void appendItems(std::vector<BuildItem>& items, const TriangleSoup& soup, std::uint32_t firstId) {
     Corners c{};
     for (std::size_t i = 0; i < soup.triangleCount; ++i)

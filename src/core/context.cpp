@@ -15,7 +15,7 @@ namespace probegi {
 
 namespace {
 
-/// Whether so many threads can run beside this one. TBB, which starts them later, ends the program where it cannot.
+/// Whether that many further threads can be started. TBB, which starts them later, aborts if it cannot.
 Result<void> tryThreads(int count) {
     std::latch end(1);
     std::vector<std::jthread> threads;
@@ -34,7 +34,7 @@ Result<void> tryThreads(int count) {
     if (!reason) return {};
     return fail(ErrorCode::outOfMemory,
                 sentence("the system starts only ", threads.size() + 1, " of ", count + 1, " threads (", reason,
-                         "); ask for fewer, or raise its limits on processes and memory (ulimit -u, ulimit -v)"));
+                         "); use fewer, or raise its limits on processes and memory (ulimit -u, ulimit -v)"));
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ Result<Context> Context::create(const ContextDesc& desc) {
     if (desc.threads > 1 && !several)
         return fail(ErrorCode::unsupported, sentence("threads is ", desc.threads,
                                                      ", but this ProbeGI was built without threads of its own; "
-                                                     "leave it 0, or give parallelFor"));
+                                                     "leave it 0, or set parallelFor"));
     const int all = several ? std::max(1, int(std::thread::hardware_concurrency())) : 1;
     auto impl = std::make_shared<Impl>();
     impl->desc = desc;

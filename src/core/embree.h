@@ -1,6 +1,6 @@
 #pragma once
 
-// Embree 3 or 4: the one place that knows how they differ. CMake says which one is linked (PROBEGI_EMBREE_MAJOR).
+// Embree 3 or 4: the only place that handles their differences. CMake sets which one is linked (PROBEGI_EMBREE_MAJOR).
 #if PROBEGI_EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
 #else
@@ -13,8 +13,8 @@
 
 namespace probegi {
 
-/// How rays are traced, together or each for itself, and the calls that trace them: with an intersection context in
-/// Embree 3, with arguments in Embree 4. One thread at a time.
+/// Tracing calls for coherent or incoherent rays: with an intersection context in Embree 3, with arguments in Embree 4.
+/// One thread at a time.
 class EmbreeCalls {
 public:
 #if RTC_VERSION_MAJOR >= 4

@@ -7,19 +7,19 @@
 
 namespace probegi {
 
-/// What went wrong first on any of several threads.
+/// The first error on any of several threads.
 class FirstError {
 public:
-    /// Keeps the error of a Result that failed. Returns whether it did not.
+    /// Keeps the error of a failed Result. Returns whether it succeeded.
     bool passes(const Result<void>& result) {
         if (result) return true;
         const std::scoped_lock lock(m_mutex);
         if (!m_happened.exchange(true)) m_error = result.error();
         return false;
     }
-    /// Whether anything went wrong: the rest need not be done.
+    /// Whether anything failed, so that the rest can be skipped.
     bool happened() const noexcept { return m_happened.load(std::memory_order_relaxed); }
-    /// Once the threads are done.
+    /// Call when all threads are done.
     Result<void> result() const {
         if (m_happened) return m_error;
         return {};

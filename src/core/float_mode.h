@@ -7,9 +7,9 @@
 
 namespace probegi {
 
-/// While it lives, denormal numbers count as zero on this thread (FTZ and DAZ): on some processors each of them costs
-/// more than a hundred cycles, and none of ours can be seen. Embree's manual recommends it too. The caller's mode comes
-/// back afterwards. Nothing on processors without MXCSR.
+/// Flushes denormals to zero on this thread (FTZ and DAZ) during its lifetime: on some processors each costs more than
+/// a hundred cycles, and they make no visible difference. Embree's manual recommends it too. Restores the caller's
+/// mode. No effect on processors without MXCSR.
 class FloatMode {
 public:
     FloatMode(const FloatMode&) = delete;

@@ -6,10 +6,10 @@ namespace probegi {
 
 namespace {
 
-// Whether this thread is within a task of an engine's job.
+// Whether this thread is running a task of an engine's job.
 thread_local bool t_inJob = false;
 
-// What went wrong first in any of an engine's jobs: its threads are no place for exceptions.
+// The first exception in any of an engine's jobs, whose threads must not see exceptions.
 class FirstException {
 public:
     void keepCurrent() {

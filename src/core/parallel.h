@@ -8,16 +8,15 @@
 
 namespace probegi {
 
-/// Calls task(i) for every i of 0..count on the context's threads or the engine's jobs. What a task throws is thrown
-/// here.
+/// Calls task(i) for every i in 0..count-1 on the context's threads or the engine's jobs. Rethrows a task's exception.
 void runTasks(const Context& context, std::size_t count, const std::function<void(std::size_t)>& task);
 
-/// Calls body where loops of Embree's keep to the context's threads, where these are the library's own.
+/// Calls body such that Embree's loops use the context's threads, if these are the library's own.
 void runInside(const Context& context, const std::function<void()>& body);
 
-/// Calls body(begin, end) on disjoint ranges that cover 0..count, on the context's threads. Ranges are multiples of
-/// `grain` (but for the last), so what a body computes per range does not depend on the number of threads. Denormal
-/// numbers count as zero in all of them.
+/// Calls body(begin, end) on disjoint ranges that cover 0..count, on the context's threads. Range sizes are multiples
+/// of `grain` (except the last), so what a body computes per range does not depend on the number of threads. Denormals
+/// are flushed to zero.
 template <class Body>
 void parallelFor(const Context& context, std::size_t count, std::size_t grain, const Body& body) {
     const std::size_t chunks = (count + grain - 1) / grain;
@@ -27,8 +26,7 @@ void parallelFor(const Context& context, std::size_t count, std::size_t grain, c
     });
 }
 
-/// The same for a body that returns a Result<void>. What failed first is returned, and ranges that have not begun by
-/// then are left out.
+/// The same for a body that returns a Result<void>. Returns the first error; ranges not yet begun are then skipped.
 template <class Body>
 Result<void> tryParallelFor(const Context& context, std::size_t count, std::size_t grain, const Body& body) {
     FirstError error;

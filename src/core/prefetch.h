@@ -6,7 +6,7 @@
 
 namespace probegi {
 
-/// Asks for a cache line that will be read soon. Any address will do.
+/// Prefetches a cache line. Any address is allowed.
 inline void prefetch(const void* address) noexcept {
 #if defined(__GNUC__)
     __builtin_prefetch(address);

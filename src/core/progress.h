@@ -9,7 +9,7 @@
 namespace probegi {
 
 /// Reports one long-running stage to the context's progress callback. Workers call advance() from any thread;
-/// the callback is rate-limited and never entered twice at once.
+/// the callback is rate-limited and never entered concurrently.
 class Progress {
 public:
     Progress(const Context& context, std::string stage, double totalUnits);
@@ -17,9 +17,9 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// Adds finished units. Returns false once the callback has asked to stop: leave quickly then.
+    /// Adds finished units. Returns false once the callback has asked to stop; the caller then returns quickly.
     bool advance(double units = 1);
-    /// Sets the share done directly (for stages limited by time or error rather than by count).
+    /// Sets the completed share directly (for stages limited by time or error rather than count).
     bool set(double fraction);
     bool cancelled() const noexcept { return m_cancelled.load(std::memory_order_relaxed); }
 

@@ -6,7 +6,7 @@
 
 namespace probegi {
 
-/// All parts one after the other, for messages: numbers have up to six digits and no language.
+/// Concatenates parts into a message; numbers have up to six digits, independent of the locale.
 template <class... Parts>
 std::string sentence(const Parts&... parts) {
     std::ostringstream out;

@@ -6,20 +6,20 @@
 
 namespace probegi {
 
-/// Threads of the library's own. There is one implementation (oneTBB), or none.
+/// The library's own threads. There is one implementation (oneTBB), or none.
 class Workers {
 public:
     virtual ~Workers() = default;
-    /// Calls task(i) for every i of 0..count. A thread that waits for a loop within a task takes up nothing else, so
-    /// what is thread_local belongs to one task at a time.
+    /// Calls task(i) for every i in 0..count-1. A thread that waits for a nested loop takes up no other task, so
+    /// thread_local data belongs to one task at a time.
     virtual void run(std::size_t count, const std::function<void(std::size_t)>& task) = 0;
-    /// Calls body where loops of a library that uses the same threads (Embree) keep to their number.
+    /// Calls body such that a library on the same threads (Embree) keeps to their number.
     virtual void inside(const std::function<void()>& body) = 0;
 };
 
-/// Null where the library was built without.
+/// Null if the library was built without threads.
 std::unique_ptr<Workers> makeWorkers(int threads);
-/// Whether makeWorkers() makes any.
+/// Whether makeWorkers() returns any.
 bool workersExist() noexcept;
 
 }  // namespace probegi

@@ -29,7 +29,7 @@ public:
     void inside(const std::function<void()>& body) override { m_arena.execute(body); }
 
 private:
-    // Never below the hardware's threads: where several controls are alive, the smallest counts.
+    // Never below the number of hardware threads: of several live controls, the smallest applies.
     static std::size_t atLeastTheHardwares(int threads) {
         return std::max(std::size_t(threads), std::size_t(std::thread::hardware_concurrency()));
     }

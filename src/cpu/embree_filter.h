@@ -4,8 +4,8 @@
 
 namespace probegi {
 
-/// Embree filter for intersection and occlusion: rejects the hits where a masked material's alpha is below its cutoff.
-/// The geometry's user pointer must be an EmbreeFilterData.
+/// Embree filter for intersection and occlusion: rejects hits whose masked material's alpha is below its cutoff. The
+/// geometry's user pointer must be an EmbreeFilterData.
 void rejectTransparent(const RTCFilterFunctionNArguments* args);
 
 }  // namespace probegi

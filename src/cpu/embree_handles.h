@@ -6,7 +6,7 @@
 
 namespace probegi {
 
-/// Deleters that make std::unique_ptr the owner of Embree's reference-counted objects.
+/// Deleters for std::unique_ptr to Embree's reference-counted objects.
 struct EmbreeRelease {
     void operator()(RTCDevice device) const noexcept { rtcReleaseDevice(device); }
     void operator()(RTCScene scene) const noexcept { rtcReleaseScene(scene); }

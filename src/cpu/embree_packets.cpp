@@ -11,7 +11,7 @@ namespace probegi {
 namespace {
 
 constexpr std::size_t kWidth = 16;
-/// Least cosine between the first direction of a packet and the others of a coherent one: 8 degrees.
+/// Minimum cosine between the first direction of a coherent packet and the others: 8 degrees.
 constexpr float kCoherentCosine = 0.99f;
 
 RTCRay single(const Ray& ray) {
@@ -27,7 +27,7 @@ Hit miss() {
     return {};
 }
 
-/// Beyond it Embree's arithmetic overflows; it asserts on such rays, and on those that are not numbers.
+/// Beyond this Embree's arithmetic overflows; it asserts on such rays, and on NaN.
 constexpr float kLargest = 1.8e18f;
 
 bool usable(const Ray& ray) {
@@ -41,7 +41,7 @@ int inRange(float x) {
     return std::abs(x) <= kLargest ? 1 : 0;
 }
 
-/// Embree's mask of the lanes that hold usable rays: -1 or 0. Written without branches, for SIMD.
+/// Embree's mask of lanes with usable rays: -1 or 0. Branch-free, for SIMD.
 void findUsable(const RTCRay16& r, std::size_t count, int (&valid)[kWidth]) {
     for (std::size_t k = 0; k < kWidth; ++k) {
         const int origin = inRange(r.org_x[k]) & inRange(r.org_y[k]) & inRange(r.org_z[k]);
@@ -51,7 +51,7 @@ void findUsable(const RTCRay16& r, std::size_t count, int (&valid)[kWidth]) {
     }
 }
 
-/// Whether Embree should traverse the packet as one: nearly one origin and nearly one direction.
+/// Whether Embree should traverse the packet coherently: nearly the same origin and direction.
 bool coherent(const RTCRay16& r, float originSpread) {
     float cosine = 1.0f, spread = 0.0f;
     for (std::size_t k = 0; k < kWidth; ++k) {
@@ -66,7 +66,7 @@ bool coherent(const RTCRay16& r, float originSpread) {
     return spread <= originSpread && cosine >= kCoherentCosine;
 }
 
-/// Lanes beyond the rays repeat the first ray: disabled, but what Embree and coherent() read.
+/// Excess lanes repeat the first ray: disabled, but still read by Embree and coherent().
 void load(RTCRay16& packet, std::span<const Ray> rays) {
     for (std::size_t k = 0; k < kWidth; ++k) {
         const Ray& ray = rays[k < rays.size() ? k : 0];
@@ -115,7 +115,7 @@ bool occludedOne(RTCScene scene, EmbreeCalls& calls, const Ray& ray) {
     if (!usable(ray)) return false;
     RTCRay query = single(ray);
     calls.occluded1(scene, query);
-    return query.tfar < 0.0f;  // Embree's mark of a blocked ray: minus infinity
+    return query.tfar < 0.0f;  // Embree marks a blocked ray with minus infinity
 }
 
 }  // namespace

@@ -40,12 +40,12 @@ void EmbreeScene::attachMesh(RTCScene scene, const SurfaceMesh& mesh, int geomet
 
 EmbreeSceneHandle EmbreeScene::makeScene(const SurfaceGroup& group, bool moves) {
     EmbreeSceneHandle scene(rtcNewScene(m_device.get()));
-    // ROBUST: rays never slip between two triangles that share an edge. Without it 1.8 % of the rays aimed at edges of
+    // ROBUST: rays never pass between two triangles that share an edge. Without it 1.8 % of the rays aimed at edges of
     // a closed box were lost, and 16 % of those aimed at vertices (0.14 % with it). It costs a third of the speed,
-    // mostly because Embree has no spatial splits for it, so that a higher build quality would change nothing.
-    // A scene that moves is dynamic and of low quality: Embree then keeps a tree for each geometry, each built once at
-    // medium quality, and only puts those under a new root when something has moved. Moving a door in Sponza takes 0.2
-    // ms; without both, Embree builds all of the world's triangles again, 120 ms. Rays are as fast (188 ms, 190).
+    // mostly because Embree has no spatial splits in this mode, so a higher build quality would change nothing.
+    // A movable scene is dynamic and of low quality: Embree then keeps a tree per geometry, each built once at medium
+    // quality, and only rebuilds the root when something moves. Moving a door in Sponza takes 0.2 ms; without both
+    // flags, Embree rebuilds the whole world, 120 ms. Rays are as fast (188 ms, 190).
     rtcSetSceneFlags(scene.get(), moves ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(scene.get(), moves ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
     attachMesh(scene.get(), group.opaque, SurfaceGroup::kOpaque);
@@ -87,7 +87,7 @@ Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(const Context& context,
         return fail(errorCode(rtcGetDeviceError(nullptr)),
                     "Embree could not make a device; is this processor supported?");
     rtcSetDeviceMemoryMonitorFunction(result->m_device.get(), countBytes, &result->m_allocated);
-    // Within the arena Embree's tasks keep to the context's threads; its own "threads" option would cap all of TBB.
+    // Within the arena Embree's tasks use the context's threads; its own "threads" option would cap all of TBB.
     runInside(context, [&] { result->build(bool(movable)); });
     if (auto checked = result->check(); !checked) return checked.error();
     return result;

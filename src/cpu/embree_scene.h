@@ -11,7 +11,7 @@
 
 namespace probegi {
 
-/// What Embree gets as the user pointer of a masked geometry.
+/// User data of a masked Embree geometry.
 struct EmbreeFilterData {
     const SurfaceMesh* mesh;
     const SurfaceMaterial* materials;
@@ -23,16 +23,16 @@ class EmbreeScene {
 public:
     static constexpr unsigned kFirstInstance = 2;
 
-    /// Where `movable` is given, the instances that it names are placed, and the top level is built to change.
-    /// Errors: outOfMemory, invalidArgument (what Embree says).
+    /// With `movable`, the instances that it selects are placed, and the top level is built for changes.
+    /// Errors: outOfMemory, invalidArgument (Embree's errors).
     static Result<std::unique_ptr<EmbreeScene>> create(const Context& context, const Scene& scene,
                                                        const ScenePose& pose, const InstancePredicate& movable = {});
 
-    /// Moves the placements. Errors: those of movedPlacements, and what Embree says.
+    /// Moves the placements. Errors: those of movedPlacements, and Embree's.
     Result<void> place(const ScenePose& pose);
 
-    /// Bytes that Embree has asked for since the scene was made, freed ones included: what builds cost, without a
-    /// clock.
+    /// Bytes that Embree has allocated since the scene was made, freed ones included: a deterministic measure of build
+    /// cost.
     std::int64_t allocatedBytes() const noexcept { return m_allocated; }
 
     RTCScene handle() const noexcept { return m_top.get(); }
@@ -48,14 +48,14 @@ private:
     explicit EmbreeScene(const Context& context) : m_context(context) {}
     void build(bool topMoves);
     void commitTop();
-    /// What Embree complains of since it was last asked.
+    /// Embree's errors since the last call.
     Result<void> check();
     EmbreeSceneHandle makeScene(const SurfaceGroup& group, bool moves);
     void attachMesh(RTCScene scene, const SurfaceMesh& mesh, int geometry);
 
     Context m_context;
     std::atomic<std::int64_t> m_allocated{0};
-    // Declared before the Embree objects, which read the meshes in place and so must go first.
+    // Declared before the Embree objects, which read the meshes in place and so must be destroyed first.
     SceneGeometry m_geometry;
     std::vector<std::unique_ptr<EmbreeFilterData>> m_filters;
     Bounds m_bounds;

@@ -13,10 +13,10 @@ namespace probegi {
 
 namespace {
 
-/// Of the scene's diagonal: how far apart the origins of coherent rays may be.
+/// Maximum distance between origins of coherent rays, in scene diagonals.
 constexpr float kCoherentSpread = 1.0f / 64.0f;
 
-/// Hits whose texels are on their way while others are shaded.
+/// Hits per block: the texels of all are prefetched before the first is shaded.
 constexpr std::size_t kFetchAhead = 16;
 
 class EmbreeTracer final : public MovableTracer {
@@ -59,7 +59,7 @@ public:
     Result<void> filteredSurfaces(std::span<const Ray> rays, std::span<const Hit> hits, float spread,
                                   std::span<Surface> out) const override {
         assert(rays.size() == hits.size() && rays.size() == out.size());
-        // Whoever draws no pictures needs no mip levels. The first call makes them, even one without rays.
+        // Only pictures need mip levels. The first call makes them, even one without rays.
         std::call_once(m_filteredOnce, [&] {
             m_mips = MipMaps(m_context, m_source);
             m_filtered = makeSurfaceMaterials(m_source, m_mips);

@@ -8,7 +8,7 @@
 
 namespace probegi {
 
-/// Adds what the probes' looks at emitters brought to the means of their rays.
+/// Adds the probes' emitter samples to the means of their rays.
 class EmitterBlend {
 public:
     /// `size`: side of the irradiance map; `lights`: [task][look], or empty. They must outlive this.

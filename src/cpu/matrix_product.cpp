@@ -1,5 +1,5 @@
-// A matrix product for the shapes of the blend, compiled by Highway for each instruction set: a few hundred rows and
-// columns, some hundred terms, so that the right side stays in the caches and no panel is copied.
+// A matrix product for the shapes of the blend, compiled by Highway for each instruction set: a few hundred rows,
+// columns and terms, so that the right side stays in cache and no panels are copied.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cpu/matrix_product.cpp"  // NOLINT
 #include <hwy/foreach_target.h>                      // IWYU pragma: keep
@@ -16,14 +16,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr hn::ScalableTag<float> kFloats;
 constexpr std::size_t kLanes = HWY_LANES(float);
-/// Rows and vectors of columns whose sums are kept in registers: 12 sums, and room for what is multiplied.
+/// Rows and column vectors whose sums stay in registers: 12 sums, and room for the factors.
 constexpr std::size_t kRows = 6, kVectors = 2;
 
 struct Shape {
     std::size_t terms, columns;  // of the right side
 };
 
-/// `rows` rows of the left side times `vectors` vectors of columns of the right one.
+/// `rows` rows of the left side times `vectors` column vectors of the right one.
 template <std::size_t rows, std::size_t vectors>
 HWY_INLINE void multiplyTile(const float* HWY_RESTRICT left, const float* HWY_RESTRICT right, Shape shape,
                              float* HWY_RESTRICT out) {

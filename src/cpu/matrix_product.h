@@ -6,7 +6,7 @@
 
 namespace probegi {
 
-/// A dense row-major matrix that keeps its memory when it shrinks.
+/// A dense row-major matrix that keeps its memory when shrunk.
 struct Matrix {
     std::size_t rows = 0;
     std::size_t columns = 0;

@@ -15,11 +15,11 @@ namespace probegi {
 
 namespace {
 
-// Probes a task: wide enough for the matrix product, small enough for the second-level cache.
+// Probes per task: enough for the matrix product, few enough for the L2 cache.
 constexpr std::size_t kBlock = 32;
 
-// `weightsOf(n)` gives a function from a ray's direction to its weight for the texel in direction n. Returns the sums
-// of each texel's weights, before they are normalised.
+// `weightsOf(n)` returns a function from a ray's direction to its weight for the texel in direction n. Returns each
+// texel's sum of weights before normalisation.
 template <class WeightsOf>
 std::vector<float> fillWeights(const Context& context, int size, std::span<const glm::vec3> directions,
                                std::vector<float>& out, const WeightsOf& weightsOf) {
@@ -41,7 +41,7 @@ std::vector<float> fillWeights(const Context& context, int size, std::span<const
     return sums;
 }
 
-// Ray data of one block as the rows of the two products' left sides, made safe.
+// Sanitised ray data of one block, as the left sides of the two products.
 struct BlockInput {
     std::vector<kernels::SidesSeen> seen;  // by each probe
     Matrix radiance;                       // 3 rows a probe: r, g, b
@@ -80,7 +80,7 @@ void gather(bool weighted, std::span<const kernels::Volume> volumes, std::span<c
     }
 }
 
-// BackfaceRule::excluded: the weights of the rays that count, instead of all weights, sum to 1.
+// BackfaceRule::excluded: renormalises over the weights of the rays that count, instead of all weights.
 void divideByValidity(const Matrix& validity, Matrix& irradiance) {
     for (std::size_t row = 0; row < irradiance.rows; ++row)
         for (std::size_t texel = 0; texel < irradiance.columns; ++texel)
@@ -115,7 +115,7 @@ void storeIrradiance(const FieldSettings& settings, const BlendFrame& frame, con
     }
 }
 
-// How far the new irradiance lies from the stored one: kernels::relativeChange over the texels.
+// Difference between new and stored irradiance: kernels::relativeChange over the texels.
 float changeOf(const Matrix& mean, std::size_t row, std::size_t texels, const std::uint16_t* map) {
     const float* r = &mean(row, 0);
     const float* g = &mean(row + 1, 0);

@@ -9,12 +9,12 @@
 
 namespace probegi {
 
-/// Weights of every ray of a frame for every texel of a probe: since all probes share the frame's rays, the
+/// Weights of every ray of a frame for every texel of a probe. Since all probes share the frame's rays, the
 /// blend of all probes is a product with these two matrices. Both are [ray][texel], and normalised over the rays.
 struct BlendWeights {
     std::vector<float> irradiance;
     std::vector<float> visibility;
-    std::vector<float> evidence;  ///< [visibility texel]: kernels::visibilityEvidence(); by the paper's rules 1
+    std::vector<float> evidence;  ///< [visibility texel]: kernels::visibilityEvidence(); 1 with the paper's rules
 };
 
 /// Fills the weights for a frame's directions (eq. 1, and its power-cosine form for distances).
@@ -28,7 +28,7 @@ struct ProbeStep {
     float change = 0;  ///< out: mean square difference between new and old texels over the square of the old mean
 };
 
-/// How the new values join the old ones.
+/// How new values are blended with old ones.
 struct BlendFrame {
     std::span<const ProbeTask> tasks;  ///< the probes, in the order of their ray data
     FrameHysteresis hysteresis{};

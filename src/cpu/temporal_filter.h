@@ -8,7 +8,7 @@
 
 namespace probegi {
 
-/// The passes around a blend with windows (kernels/blend/temporal_filter.h), with what they hand to each other.
+/// The passes around a blend with windows (kernels/blend/temporal_filter.h), and their shared data.
 class TemporalFilter {
 public:
     /// Before the blend: what the fixed rays [task][ray] tell of each probe's lag, and the windows that follow from

@@ -13,29 +13,29 @@ namespace {
 
 constexpr int kRegionSide = 4;  // probes
 constexpr int kFirstCheck = 8;  // averaged updates
-// Light of a probe, in shares of the mean probe's: below the first it does not count, below the second its noise counts
-// as if it had that much (a leak into a sealed room is noisy for ever, and nobody sees it).
+// A probe's light relative to the mean probe's: below the first it is ignored, below the second its noise counts as if
+// it had that much (a leak into a sealed room stays noisy, but invisible).
 constexpr double kBlack = 1e-4;
 constexpr double kDim = 1e-2;
-// Bounces are followed until what they miss is this share of the tolerance; the rest is for noise.
+// Bounces are followed until the missing light is this share of the tolerance; the rest is for noise.
 constexpr double kShareOfBounces = 0.5;
-// An update steps ahead where that should leave at most this share of what is missing.
+// An update extrapolates if that should leave at most this share of the missing light.
 constexpr double kWorthStepping = 0.4;
-// Standard deviation of a probe's change for its dithered storage, relative, at most, times the side of its map: half a
-// step of a half float to the fifth power, from update to update, over the map's texels.
+// Upper bound on the relative standard deviation of a probe's change due to dithered storage, times the side of its
+// map: half a step of a half float to the fifth power, from update to update, over the map's texels.
 constexpr double kStorageNoise = 3.5e-3;
-// Changes are seen from so many of these on.
+// Changes are significant from this many of these on.
 constexpr double kSignificant = 3;
-// A rate is known where its noise, two of these over a change, is below a quarter of what it lacks to 1.
+// A rate is known if its noise, two of these over a change, is below a quarter of its distance to 1.
 constexpr double kNoiseInRate = 8;
-// While light still spreads into dark rooms, rates are too large: an older one counts for this much less each time.
+// While light still spreads into dark rooms, rates are too large: older ones are discounted by this factor each time.
 constexpr double kForgetSlowest = 0.7;
 constexpr double kMaxRate = double(kernels::kMaxBounceAlbedo);
 
-// Standard errors of the worst region that count as what its noise may still be. Noise that a region shares with all
-// that it sees comes back with the bounces: that is seen only where all regions share it (see checkAverage).
+// Confidence bound on the worst region's noise, in standard errors. Noise that a region shares with all that it sees is
+// fed back by the bounces; that is detected only if all regions share it (see checkAverage).
 constexpr double kStandardErrors = 1.5;
-// Squared standard error of the average, in shares of an update's variance over n: weights 3 / (k + 2).
+// Squared standard error of the average, relative to an update's variance over n, for weights 3 / (k + 2).
 constexpr double kAverageVariance = 9.0 / 5.0;
 
 }  // namespace
@@ -55,7 +55,7 @@ FrameHysteresis Convergence::kept() const noexcept {
     return {float(-m_ahead), 1.0f};
 }
 
-// Half of the updates are for the average at least.
+// At least half of the updates are for the average.
 bool Convergence::lastBeforeAverage() const noexcept {
     return 2 * (m_updates + 1) >= m_maxUpdates;
 }
@@ -125,7 +125,7 @@ double Convergence::storageNoise(const Region& region) const noexcept {
     return m_probeNoise / std::sqrt(double(std::max(region.counting, 1)));
 }
 
-// Rate of two changes that follow each other, of which storage blurs each by `noise`.
+// Rate of two successive changes, each with storage noise `noise`.
 double Convergence::rateOf(double change, double earlier, double noise) const noexcept {
     const double known = 1 - kNoiseInRate * noise / std::max(std::abs(earlier), 1e-30);
     if (known <= 0) return m_rate;
@@ -144,7 +144,7 @@ void Convergence::measureRate() noexcept {
     m_slowest = std::max(m_rate / (1 - m_rate), kForgetSlowest * m_slowest);
 }
 
-// How many of its last changes a region's light is away from where it goes.
+// A region's distance from its limit, in units of its last change.
 double Convergence::updatesAhead(const Region& region) const noexcept {
     const double rate = rateOf(region.change, region.earlier, storageNoise(region));
     return rate / (1 - rate);
@@ -154,7 +154,7 @@ void Convergence::followBounces() {
     m_ahead = 0;
     if (++m_differences < 2) return;
     measureRate();
-    // One number of steps for all regions: the least squares of what it leaves.
+    // One number of steps for all regions, by least squares of the remainder.
     double product = 0, square = 0, left = 0;
     m_missing = 0;
     for (const Region& region : m_regions) {
@@ -173,7 +173,7 @@ void Convergence::followBounces() {
     m_followed = m_missing < kShareOfBounces * m_tolerance;
     if (!m_followed && m_differences >= 3 && ahead > 1 && left < kWorthStepping * m_missing) {
         m_ahead = ahead;
-        m_differences = -1;  // the coming update's own difference, and the next one's, say nothing
+        m_differences = -1;  // the differences of the next two updates are meaningless
     }
 }
 
@@ -184,14 +184,15 @@ void Convergence::checkAverage() {
         if (!region.counts()) continue;
         common += region.change;
         ++counting;
-        if (m_averaged == 1) continue;  // so far the average is one update
-        // The update against the average of those before, which has noise of its own.
+        if (m_averaged == 1) continue;  // the average is still a single update
+        // The update against the average of its predecessors, which has noise of its own.
         region.residual2 += std::pow(region.change / weight, 2) / (1 + kAverageVariance / (n - 1));
         worst = std::max(worst, region.residual2 / (n - 1));
     }
     m_common.push_back((m_common.empty() ? 0.0 : m_common.back()) + common / std::max(counting, 1.0));
     if (m_averaged < kFirstCheck) return;
-    // What all regions have in common is what the bounces keep: from half as many updates it has fallen by this factor.
+    // The part common to all regions is what bounces feed back: it has fallen by this factor since half as many
+    // updates.
     const double power = 3 / (1 + m_slowest);
     const double lately = std::abs(m_common.back() - m_common[m_common.size() / 2 - 1]);
     m_remaining = float(kStandardErrors * std::sqrt(kAverageVariance * worst / n) +

@@ -4,7 +4,7 @@
 
 namespace probegi {
 
-/// Shares of the old values that survive the coming update.
+/// Shares of the old values that the next update keeps.
 struct FrameHysteresis {
     float irradiance = 0;
     float visibility = 0;

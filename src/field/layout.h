@@ -10,15 +10,15 @@
 namespace probegi {
 
 /// Farthest distance that visibility distinguishes, in diagonals of a grid cell: a point's eight probes are at most one
-/// diagonal away, the rest is room for the moments' spread.
+/// diagonal away; the rest leaves room for the moments' spread.
 inline constexpr float kMaxDistanceInDiagonals = 1.5f;
 
-/// Metres between probes.
+/// Minimum probe spacing, metres.
 inline constexpr float kSmallestSpacing = 1e-6f;
 inline constexpr float kLargestSpacing = 1e9f;
 
-/// Sizes that follow from a FieldDesc. A probe's texels lie together, row by row, without the border: on the CPU the
-/// border's texels are found by octWrapTexel instead of being stored a second time.
+/// Sizes that follow from a FieldDesc. A probe's texels are contiguous, row by row, without a border: on the CPU
+/// octWrapTexel finds border texels instead of storing them twice.
 struct FieldLayout {
     explicit FieldLayout(const FieldDesc& d)
         : probes(std::size_t(probeCount(d))),

@@ -40,11 +40,11 @@ Result<VolumeDesc> placeVolume(const Bounds& bounds, const PlacementDesc& desc) 
     const glm::vec3 size = bounds.size();
     const float largest = std::max({size.x, size.y, size.z});
     if (!std::isfinite(largest) || !(largest > 0))
-        return fail(ErrorCode::invalidArgument, "the scene has no extent to place probes in; give a volume");
+        return fail(ErrorCode::invalidArgument, "the scene has no extent to place probes in; set a volume");
     if (!(desc.marginCells >= 0) || desc.marginCells > 100)
         return fail(ErrorCode::invalidArgument, sentence("marginCells is ", desc.marginCells, "; it must be 0 to 100"));
 
-    // A flat axis still gets a cell, and a little room so that the scene never lies on the grid's very face.
+    // A flat axis still gets a cell, and a little room so that the scene is never exactly on the grid's face.
     const glm::vec3 padded = glm::max(size, glm::vec3(largest * 1e-3f));
     VolumeDesc grid;
     if (desc.counts == glm::ivec3(0)) {
@@ -60,16 +60,17 @@ Result<VolumeDesc> placeVolume(const Bounds& bounds, const PlacementDesc& desc) 
                 return fail(ErrorCode::invalidArgument,
                             sentence("counts has ", desc.counts[axis], "; each axis must have 2 to 1024 probes"));
             const float inner = float(desc.counts[axis] - 1) - 2.0f * (desc.marginCells + kOffWall);
-            // Too few probes for a margin on both sides: the scene then fills the middle half of the grid.
+            // With too few probes for a margin on both sides, the scene fills the middle half of the grid.
             grid.spacing[axis] = padded[axis] / std::max(inner, 0.5f * float(desc.counts[axis] - 1));
         }
         grid.counts = desc.counts;
     }
     const float closest = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
     if (closest < kSmallestSpacing)
-        return fail(ErrorCode::invalidArgument,
-                    sentence("the scene is only ", largest, " m large: its probes would be ", closest, " m apart, and ",
-                             kSmallestSpacing, " m is the least; is it in metres? scale it up"));
+        return fail(
+            ErrorCode::invalidArgument,
+            sentence("the scene is only ", largest, " m large: its probes would be ", closest,
+                     " m apart, but at least ", kSmallestSpacing, " m is needed; is it in metres? scale it up"));
     grid.origin = bounds.centre() - 0.5f * grid.spacing * glm::vec3(grid.counts - 1);
     return grid;
 }

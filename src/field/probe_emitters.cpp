@@ -16,20 +16,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Looks a task, about: as many as fill the tracer's packets, few enough to spread small fields over threads.
+// Approximate emitter samples per task: enough to fill the tracer's packets, few enough to spread small fields over
+// threads.
 constexpr std::size_t kLooksPerTask = 256;
 
 std::int64_t nanoseconds(Clock::duration d) {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(d).count();
 }
 
-// Everything a task needs, kept between tasks of a thread.
+// Buffers of a task, reused by a thread's tasks.
 struct TaskBuffers {
     std::vector<Ray> rays;
     std::vector<Hit> hits;
     std::vector<Surface> surfaces;
     std::vector<kernels::EmitterAim> aims;
-    std::vector<std::int32_t> materials;  // that the looks are after
+    std::vector<std::int32_t> materials;  // targets of the samples
 };
 
 const EmissiveTriangle* chosen(const EmitterSet& set, std::uint32_t choice) {
@@ -52,7 +53,7 @@ void aim(glm::vec3 probe, std::uint32_t seed, std::uint32_t look, const EmitterS
     b.rays.push_back({probe, 0.0f, at.direction, at.distance + kernels::emitterTolerance(at, offset)});
 }
 
-// What the look saw; nothing where something else is in between.
+// The sample's light; 0 if it is occluded.
 kernels::EmitterLight lightOf(const EmitterSearch& search, std::size_t i, const TaskBuffers& b) {
     const kernels::EmitterAim& at = b.aims[i];
     const Surface& surface = b.surfaces[i];

@@ -8,26 +8,26 @@
 
 namespace probegi {
 
-/// How the probes look at emitters in one update.
+/// Parameters of an update's emitter sampling.
 struct EmitterSearch {
-    const EmitterSet* set = nullptr;  ///< null: not at all
+    const EmitterSet* set = nullptr;  ///< null: none
     int rays = 0;                     ///< update rays a probe
-    int looks = 0;                    ///< a probe
+    int looks = 0;                    ///< per probe
     std::uint32_t seed = 0;           ///< differs between frames
 
     explicit operator bool() const noexcept { return set != nullptr; }
-    /// Share of an emission that counts for the update ray which met it; the looks bring the rest.
+    /// Weight of an emission for the update ray that hit it; emitter samples contribute the rest.
     float rayShare(std::int32_t material, float distance) const noexcept {
         return set ? kernels::rayEmissionShare(rays, looks, set->density(material), distance) : 1.0f;
     }
 };
 
-/// Looks that a probe takes at emitters: FieldDesc::emitterSamples, or none where the rules say so.
+/// Emitter samples per probe: FieldDesc::emitterSamples, or none if the rules say so.
 inline int emitterLooks(const FieldDesc& desc) noexcept {
     return desc.rules == FieldRules::paper ? 0 : desc.emitterSamples;
 }
 
-/// The search of an update; none where the tracer knows no emitters. `frameSeed`: UpdateFrame::ditherSeed.
+/// The search of an update; empty if the tracer has no emitters. `frameSeed`: UpdateFrame::ditherSeed.
 EmitterSearch emitterSearch(const FieldDesc& desc, const Tracer& tracer, std::uint32_t frameSeed);
 
 /// What the looks of the tasks' probes bring home, as [task][look], on the context's threads. The search must not be

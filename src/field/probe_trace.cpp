@@ -21,19 +21,19 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Rays a batch, about: enough to amortise calls, few enough for the second-level cache.
+// Approximate rays per batch: enough to amortise calls, few enough for the L2 cache.
 constexpr std::size_t kRaysPerBatch = 1152;
 
 std::int64_t nanoseconds(Clock::duration d) {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(d).count();
 }
 
-// What a ray brings home.
+// Light along a ray.
 struct RayLight {
-    glm::vec3 emitted{0.0f};  // does not depend on other light
+    glm::vec3 emitted{0.0f};  // independent of other light
     float distance = 0;
     glm::vec3 direct{0.0f}, bounced{0.0f};  // reflected
-    bool back = false;                      // from the back of a surface with two sides: see RayDatum
+    bool back = false;                      // from the back of a double-sided surface: see RayDatum
 };
 
 // Everything a batch needs, kept between batches of a thread. What has an entry for each ray is as long as the longest
@@ -47,7 +47,7 @@ struct BatchBuffers {
     std::vector<RayLight> light;
     std::vector<std::uint32_t> lit;       // indices into rays of hits that reflect
     std::vector<std::uint32_t> shadowed;  // for each shadow ray: index into lit
-    std::vector<glm::vec3> unshadowed;    // for each shadow ray: irradiance where it is not blocked
+    std::vector<glm::vec3> unshadowed;    // for each shadow ray: irradiance if unoccluded
     std::vector<std::uint8_t> blocked;
     std::vector<FieldQuery> queries;
     std::vector<glm::vec3> irradiance;  // for each entry of lit: from punctual lights
@@ -56,12 +56,12 @@ struct BatchBuffers {
     void reserve(std::size_t most) {
         if (rays.size() >= most) return;
         const auto each = [most](auto&... buffers) { (buffers.resize(most), ...); };
-        // The rays last: where memory ends, the others are asked for again.
+        // The rays last: if memory runs out, the others are requested again.
         each(shadowRays, hits, surfaces, light, shadowed, unshadowed, blocked, queries, irradiance, bounced, rays);
     }
 };
 
-// Directions of a batch: some of the update rays', or of the fixed rays'.
+// Directions of a batch: a part of the update rays' or of the fixed rays'.
 struct Batch {
     std::span<const OrderedDirection> directions;
     bool fixed;
@@ -138,7 +138,7 @@ Result<void> queryBounces(const BounceQuery& bounces, BatchBuffers& b) {
     return bounces({b.queries.data(), count}, {b.bounced.data(), count});
 }
 
-// Distances and the radiance that does not depend on other light; lists the hits that reflect.
+// Resolves distances and the radiance that is independent of other light; lists the hits that reflect.
 void resolveHits(const Lighting& lighting, const EmitterSearch& emitters, const Batch& batch, std::size_t count,
                  BatchBuffers& b) {
     b.lit.clear();
@@ -153,7 +153,7 @@ void resolveHits(const Lighting& lighting, const EmitterSearch& emitters, const 
         } else if (surface.backface) {
             light.distance = -hit.distance;
         } else {
-            // Fixed rays see all of an emission: looks at emitters add nothing to them.
+            // Fixed rays get the full emission: emitter samples add nothing to them.
             const float share = batch.fixed ? 1.0f : emitters.rayShare(surface.material, hit.distance);
             light.emitted = surface.emission * share;
             light.distance = hit.distance;
@@ -187,7 +187,7 @@ void writeData(const ProbeRayDirections& directions, const Batch& batch, const B
         }
 }
 
-// What a batch's rays bring home, from their hits on.
+// Shades a batch's hits.
 Result<void> shadeBatch(const Tracer& tracer, const Lighting& lighting, float magnitude, const BounceQuery& bounces,
                         const EmitterSearch& emitters, const Batch& batch, std::size_t count, BatchBuffers& b) {
     const std::span<Surface> surfaces(b.surfaces.data(), count);

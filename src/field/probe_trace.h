@@ -8,7 +8,7 @@
 
 namespace probegi {
 
-/// Nanoseconds summed over threads.
+/// Nanoseconds, summed over threads.
 struct TraceTimes {
     std::atomic<std::int64_t> traceNs{0};
     std::atomic<std::int64_t> shadeNs{0};
@@ -21,7 +21,7 @@ struct EmitterSearch;
 
 /// Directions of a probe's rays, the same for all probes.
 struct ProbeRayDirections {
-    std::span<const glm::vec3> update;  ///< of the rays that are blended
+    std::span<const glm::vec3> update;  ///< of the blended rays
     std::span<const glm::vec3> fixed;   ///< of the rays that measure lag; may be empty
 };
 

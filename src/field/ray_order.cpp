@@ -18,7 +18,7 @@ glm::ivec3 boxesOf(const kernels::Volume& volume) {
     return (volume.counts + kBlock - 1) / kBlock;
 }
 
-// Bits of x and y in turn, x lowest: a curve over the square (Morton).
+// Interleaved bits of x and y, x lowest (Morton curve).
 std::uint32_t interleaved(std::uint32_t x, std::uint32_t y) {
     std::uint32_t code = 0;
     for (int bit = 0; bit < 8; ++bit) code |= (x >> bit & 1u) << (2 * bit) | (y >> bit & 1u) << (2 * bit + 1);

@@ -31,13 +31,13 @@ private:
     std::vector<std::uint32_t> m_begins;  // of each box in m_tasks, and the end
 };
 
-/// One direction of a set, and which.
+/// A direction of a set with its index.
 struct OrderedDirection {
     glm::vec3 direction;
     std::uint32_t index;
 };
 
-/// The directions along a curve over the sphere, so that what follows one another looks the same way.
+/// The directions along a space-filling curve over the sphere, so that consecutive ones are similar.
 std::vector<OrderedDirection> alongCurve(std::span<const glm::vec3> directions);
 
 }  // namespace probegi

@@ -35,7 +35,7 @@ Result<void> checkDistance(const std::string& name, const VolumeDesc& volume) {
     return fail(ErrorCode::invalidArgument,
                 sentence(name, " reaches ", std::max({corner.x, corner.y, corner.z}),
                          " m from the origin, where coordinates are too coarse for probes ", closest,
-                         " m apart; move the scene to the origin, or set probes farther apart"));
+                         " m apart; move the scene to the origin, or increase the spacing"));
 }
 
 Result<void> checkOrientation(const std::string& name, const glm::quat& q) {

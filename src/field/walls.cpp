@@ -14,22 +14,22 @@ namespace {
 
 constexpr std::uint32_t kOrigins = 2048;
 constexpr std::uint32_t kRaysPerOrigin = 8;
-constexpr int kMostBacks = kRaysPerOrigin / 4;  ///< that an origin in the open may see
-constexpr float kAcross = 0.99f;                ///< component of the normal from which a surface lies across an axis
+constexpr int kMostBacks = kRaysPerOrigin / 4;  ///< for an origin in the open
+constexpr float kAcross = 0.99f;                ///< normal component from which a surface counts as axis-aligned
 
-// In cells. Errors at surfaces were measured over how far in front of them the first layer of probes stands
-// (docs/accuracy.md): lowest a fifth of a cell away, and growing from there in proportion to the distance.
+// In cells. Measured error at surfaces over the distance of the first layer of probes (docs/accuracy.md): lowest at a
+// fifth of a cell, growing linearly from there.
 constexpr float kBestDistance = 0.2f;
-constexpr float kOwnError = 0.4f;  ///< that remains at the best distance, on the scale on which a cell more adds 1
-// So near to a wall, unevenness decides whether a probe stands in front of it.
+constexpr float kOwnError = 0.4f;  ///< error at the best distance, where one cell more adds 1
+// This close to a wall, unevenness decides whether a probe is in front of it.
 constexpr float kTooNear = 0.05f;
 
-// What the search looks at.
+// Range of the search.
 constexpr float kLeastStretch = 0.95f, kMostStretch = 1.08f;
 constexpr int kStretches = 14, kPhases = 32;
-// The probes stay where less than this share of the squared error is to be gained: then it is chance.
+// The probes stay if less than this share of the squared error can be gained, which is insignificant.
 constexpr float kLeastGain = 0.1f;
-// Share of the seen places that must lie across an axis.
+// Minimum share of axis-aligned points among those found.
 constexpr float kLeastShare = 0.05f;
 
 float unit(std::uint32_t& state) {
@@ -106,7 +106,7 @@ AxisPlacement fitToWalls(const std::vector<WallPoint>& walls, std::size_t seen, 
         const float share = float(i) / float(kStretches - 1);
         const float spacing = placed.spacing * (kLeastStretch + (kMostStretch - kLeastStretch) * share);
         if (spacing < kSmallestSpacing) continue;
-        // What can be moved while the margin holds; half a cell to both sides brings every phase.
+        // Possible shift within the margin; half a cell to both sides covers every phase.
         const float room = cellsWithin * spacing - (upper - lower);
         if (room < 0) continue;
         const float reach = 0.5f * std::min(room, spacing);

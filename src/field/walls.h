@@ -8,31 +8,31 @@
 
 namespace probegi {
 
-/// A place on a surface that lies across an axis.
+/// A point on an axis-aligned surface.
 struct WallPoint {
     float place;  ///< along the axis, metres
     bool up;      ///< the surface faces up the axis, else down it
 };
 
-/// The surfaces that one sees from inside a scene's bounds.
+/// The surfaces visible from inside a scene's bounds.
 struct Walls {
-    std::array<std::vector<WallPoint>, 3> across;  ///< by axis; what lies across none is in no list
-    std::size_t seen = 0;                          ///< all places that were found, those across no axis included
+    std::array<std::vector<WallPoint>, 3> across;  ///< by axis; other surfaces are in no list
+    std::size_t seen = 0;                          ///< all points found, other surfaces included
 };
 
-/// Finds them by rays from places that are spread over the bounds, those in solid matter left out: a wall counts by its
-/// area, and by how much room there is in front of it. The same for the same scene. Errors: those of the tracer.
+/// Finds them by rays from points spread over the bounds, except those in solid matter: a wall counts by its area and
+/// by the open space in front of it. Deterministic. Errors: those of the tracer.
 Result<Walls> findWalls(const Tracer& tracer);
 
-/// Where the probes along one axis stand.
+/// Positions of the probes along one axis.
 struct AxisPlacement {
-    float first;    ///< place of the first probe, metres
+    float first;    ///< position of the first probe, metres
     float spacing;  ///< metres
 };
 
-/// Moves the probes of an axis, by up to half a cell, and draws them apart or together by a few per cent, so that the
-/// first probe in front of the walls stands where it serves them best. Keeps at least marginCells beyond `lower` and
-/// `upper`; returns `placed` as it is where there are few walls or little is to be gained.
+/// Shifts the probes of an axis by up to half a cell and scales their spacing by a few per cent, so that the first
+/// probe in front of the walls is at the best distance. Keeps at least marginCells beyond `lower` and `upper`; returns
+/// `placed` unchanged if there are few walls or little to gain.
 AxisPlacement fitToWalls(const std::vector<WallPoint>& walls, std::size_t seen, AxisPlacement placed, int count,
                          float lower, float upper, float marginCells);
 

@@ -24,7 +24,7 @@ float meanLuminance(const TextureImage& image) {
     return texels > 0 ? float(sum / double(texels)) : 0.0f;
 }
 
-/// By material: of its emission, its texture included.
+/// Mean luminance of each material's emission, texture included.
 std::vector<float> meanLuminances(const Scene& scene) {
     std::map<int, float> images;
     std::vector<float> luminances;
@@ -50,7 +50,7 @@ EmitterSet makeEmitterSet(std::vector<EmissiveTriangle> triangles, std::vector<f
     double total = 0;
     for (const EmissiveTriangle& t : triangles) total += emitterPower(t, luminance[std::size_t(t.material)]);
     EmitterSet set{{}, std::move(luminance), total > 0 ? float(1 / total) : 0.0f};
-    // Also where the sum is too large or too small for a float: such light is left to the rays.
+    // Also if the sum overflows or underflows a float: such light is left to the rays.
     if (!(set.inversePower > 0 && std::isfinite(set.inversePower))) {
         set.inversePower = 0;
         return set;
@@ -60,7 +60,7 @@ EmitterSet makeEmitterSet(std::vector<EmissiveTriangle> triangles, std::vector<f
         sum += emitterPower(t, set.luminance[std::size_t(t.material)]);
         t.upTo = std::uint32_t(std::min(sum / total, 1.0) * 4294967295.0);
     }
-    // Every number chooses a triangle, and no rounding gives one to a triangle that sends nothing.
+    // Every number selects a triangle, and rounding never selects one that emits nothing.
     const std::uint32_t last = triangles.back().upTo;
     for (EmissiveTriangle& t : triangles)
         if (t.upTo == last) t.upTo = 0xffffffffu;
@@ -98,7 +98,7 @@ EmitterSet EmitterGeometry::placed() const {
     std::vector<EmissiveTriangle> placed;
     placed.reserve(m_triangles.size());
     for (const Group& group : m_groups) {
-        // glTF 2.0, section 3.7.4: a transform that mirrors turns the winding of the front around.
+        // glTF 2.0, section 3.7.4: a mirroring transform reverses the winding of the front.
         const bool mirrored = glm::determinant(glm::mat3(group.toWorld)) < 0;
         const auto place = [&](glm::vec3 p) { return glm::vec3(group.toWorld * glm::vec4(p, 1.0f)); };
         for (std::size_t i = group.first; i < group.first + group.count; ++i) {

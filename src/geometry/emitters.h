@@ -7,10 +7,10 @@
 
 namespace probegi {
 
-/// Area times luminance, W sr^-1; 0 for a triangle that cannot be aimed at.
+/// Area times luminance, W sr^-1; 0 for a triangle that cannot be sampled.
 double emitterPower(const EmissiveTriangle& triangle, float luminance);
 
-/// The emissive triangles of a scene in their meshes' space: what a pose turns into an EmitterSet.
+/// The emissive triangles of a scene in mesh space, from which placed() makes an EmitterSet.
 class EmitterGeometry {
 public:
     EmitterGeometry() = default;
@@ -18,9 +18,9 @@ public:
     EmitterGeometry(const Scene& scene, const ScenePose& pose);
 
     bool empty() const noexcept { return m_triangles.empty(); }
-    /// Moves a node's instance. Returns whether it sends any light.
+    /// Moves a node's instance. Returns whether it emits light.
     bool place(int node, const glm::mat4& toWorld);
-    /// Where everything is now. Always the same triangles in the same order, unless nothing sends any light.
+    /// The set for the current placement. Always the same triangles in the same order, unless nothing emits.
     EmitterSet placed() const;
 
 private:

@@ -13,7 +13,7 @@ static_assert(int(LightType::directional) == kernels::kLightDirectional);
 static_assert(int(LightType::point) == kernels::kLightPoint);
 static_assert(int(LightType::spot) == kernels::kLightSpot);
 
-/// What `point` receives from a light, without shadows: direction, distance, irradiance at normal incidence.
+/// Unshadowed light at `point`: direction, distance, irradiance at normal incidence.
 inline kernels::LightSample sampleLight(const PlacedLight& light, glm::vec3 point) {
     return kernels::samplePunctual(int(light.type), light.position, light.direction, light.intensity, light.range,
                                    light.cosInner, light.cosOuter, point);
@@ -25,8 +25,8 @@ inline float sceneMagnitude(const Bounds& bounds) {
     return std::max({m.x, m.y, m.z});
 }
 
-/// The ray whose occlusion tells whether a surface point sees the light. `geometricNormal` is on the lit side;
-/// `magnitude` is sceneMagnitude(tracer.bounds()).
+/// The shadow ray from a surface point to a light. `geometricNormal` is on the lit side; `magnitude` is
+/// sceneMagnitude(tracer.bounds()).
 inline Ray shadowRay(glm::vec3 position, glm::vec3 geometricNormal, const kernels::LightSample& sample,
                      float magnitude) {
     return {kernels::offsetOrigin(position, geometricNormal, magnitude), 0.0f, sample.toLight,

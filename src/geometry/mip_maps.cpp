@@ -11,14 +11,14 @@ namespace probegi {
 
 namespace {
 
-/// Along one axis, the texels of the level below that one texel covers, and its shares in them.
+/// The texels of the finer level that one texel covers along an axis, and their weights.
 struct Cover {
     int first = 0, count = 1;
     float shares[3] = {1, 0, 0};
 };
 
-// Of n texels, halved and rounded down. An even number: two each. An odd one, n = 2 m + 1: each covers 2 + 1/m of them,
-// which begin i/m behind the texel 2 i and end (i + 1)/m in the texel 2 i + 2.
+// For n texels, halved and rounded down. Even n: two each. Odd n = 2 m + 1: texel i covers 2 + 1/m of them, from 2 i +
+// i/m to 2 i + 2 + (i + 1)/m.
 std::vector<Cover> covers(int n) {
     const int half = kernels::mipSize(n, 1);
     std::vector<Cover> result(static_cast<std::size_t>(half));
@@ -32,7 +32,7 @@ std::vector<Cover> covers(int n) {
     return result;
 }
 
-/// What a texel's codes stand for, and back to the nearest code.
+/// Decodes a texel's codes, and encodes to the nearest code.
 class Codes {
 public:
     explicit Codes(TexelKind kind) {
@@ -56,12 +56,12 @@ public:
     }
 
 private:
-    static constexpr int kCells = 4096;  // about as fine as the codes of dark colours
+    static constexpr int kCells = 4096;  // about the resolution of dark codes
     std::array<float, 256> m_values{}, m_upTo{};
     std::array<std::uint8_t, kCells> m_first{};  // of the values from where the cell begins
 };
 
-// All four channels apart: a look-up of colour does not ask for alpha, so neither may its mean.
+// Averages all four channels independently: look-ups of colour do not weight by alpha, so neither may the mean.
 void halve(const std::uint8_t* from, int width, int height, std::uint8_t* to, const Codes& codes) {
     const std::vector<Cover> columns = covers(width), rows = covers(height);
     for (const Cover& row : rows)

@@ -10,8 +10,9 @@ constexpr int kMaxSide = 16384;
 
 Result<void> validatePictureDesc(const PictureDesc& desc) {
     if (desc.width < 1 || desc.width > kMaxSide || desc.height < 1 || desc.height > kMaxSide)
-        return fail(ErrorCode::invalidArgument, sentence("a picture of ", desc.width, "x", desc.height,
-                                                         " pixels is not possible; each side must be 1 to ", kMaxSide));
+        return fail(ErrorCode::invalidArgument,
+                    sentence("a picture of ", desc.width, "x", desc.height,
+                             " pixels is not supported; each side must be 1 to ", kMaxSide));
     if (desc.samplesPerAxis < 1 || desc.samplesPerAxis > 8)
         return fail(ErrorCode::invalidArgument,
                     sentence("samplesPerAxis is ", desc.samplesPerAxis, "; it must be 1 to 8"));

@@ -7,10 +7,10 @@ namespace probegi {
 /// Checks size and supersampling. Errors: invalidArgument.
 Result<void> validatePictureDesc(const PictureDesc& desc);
 
-/// All layers of the size, black.
+/// All layers in this size, black.
 Picture emptyPicture(int width, int height);
 
-/// outOfMemory, in the words of every backend.
+/// The outOfMemory error of all backends.
 Error pictureDoesNotFit(const PictureDesc& desc);
 
 }  // namespace probegi

@@ -62,7 +62,7 @@ InstancePredicate movableInstances(const Scene& scene, bool animated, std::span<
     for (const int node : nodes) moves[std::size_t(node)] = true;
     if (animated)
         for (const AnimationChannel& channel : scene.animations) moves[std::size_t(channel.node)] = true;
-    // Parents come first, so one pass hands the motion down.
+    // Parents come first, so one pass propagates the motion.
     for (std::size_t i = 0; i < moves.size(); ++i) {
         const int parent = scene.nodes[i].parent;
         if (parent >= 0 && moves[std::size_t(parent)]) moves[i] = true;

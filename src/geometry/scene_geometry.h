@@ -7,32 +7,31 @@
 
 namespace probegi {
 
-/// A group of triangles somewhere in the world.
+/// A placed group of triangles.
 struct Placement {
     int group = -1;  ///< index into SceneGeometry::groups
-    int node = -1;   ///< index into Scene::nodes: whose transform moves it
+    int node = -1;   ///< index into Scene::nodes: the node that moves it
     glm::mat4 toWorld{1.0f};
     glm::mat3 normalToWorld{1.0f};
 };
 
-/// Names instances that must stay apart from the merged world.
+/// Selects instances that must not be merged into the world.
 using InstancePredicate = std::function<bool(const Instance&)>;
 
-/// A scene's triangles as tracers and surface look-ups see them: one group in world space with every mesh that is
-/// placed once, and one group per mesh that is placed several times or moves, with its placements. Refers to the
-/// scene's texels.
+/// A scene's triangles for tracers and surface look-ups: one world-space group of all static meshes placed once, and
+/// one group per mesh that is placed several times or moves, with its placements. Refers to the scene's texels.
 struct SceneGeometry {
     std::vector<SurfaceMaterial> materials;  ///< in the scene's order
     SurfaceGroup world;
     std::vector<SurfaceGroup> groups;
-    std::vector<Placement> placements;  ///< of groups with triangles; every transform has an inverse
+    std::vector<Placement> placements;  ///< of groups with triangles; every transform is invertible
 
-    /// The scene must be valid and outlive the result. Instances that `movable` names are placed even where their mesh
-    /// occurs once, so that a backend moves them by changing a placement. A transform without an inverse (flattening)
-    /// is applied to the mesh in any case.
+    /// The scene must be valid and outlive the result. Instances selected by `movable` are placed even if their mesh
+    /// occurs once, so that a backend moves them by changing a placement. A singular (flattening) transform is always
+    /// applied to the mesh.
     static SceneGeometry gather(const Scene& scene, const ScenePose& pose, const InstancePredicate& movable = {});
 
-    /// Of everything, metres; boxes of placed groups are transformed as boxes. Zero-sized where there are no triangles.
+    /// Total bounds, metres; boxes of placed groups are transformed as boxes. Zero-sized without triangles.
     Bounds bounds() const;
 
     const SurfaceGroup& group(const Placement& placement) const noexcept {
@@ -42,17 +41,17 @@ struct SceneGeometry {
 
 /// The instances that the scene's animations move: their node or one of its ancestors has a channel.
 InstancePredicate animatedInstances(const Scene& scene);
-/// The instances of some nodes and of what hangs below them, and where `animated` says so those that animations move.
-/// The nodes must be the scene's.
+/// The instances of the given nodes and their descendants and, if `animated`, those that animations move. The nodes
+/// must be the scene's.
 InstancePredicate movableInstances(const Scene& scene, bool animated, std::span<const int> nodes);
 
-/// The placements where `pose` has their nodes. Errors: invalidArgument (a node that the pose does not place, or one
-/// whose transform has no inverse).
+/// The placements with their nodes' transforms in `pose`. Errors: invalidArgument (a node that the pose does not place,
+/// or with a singular transform).
 Result<std::vector<Placement>> movedPlacements(std::vector<Placement> placements, const ScenePose& pose);
-/// Errors: invalidArgument (a node that the scene has not; `what` names the list).
+/// Errors: invalidArgument (no such node in the scene; `what` names the list).
 Result<void> checkNodes(const Scene& scene, std::span<const int> nodes, const char* what);
 
-/// Whether a transform can be undone. One that flattens the mesh cannot, up to rounding.
+/// Whether a transform is invertible up to rounding; one that flattens the mesh is not.
 bool invertible(const glm::mat4& m);
 
 }  // namespace probegi

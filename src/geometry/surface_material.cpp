@@ -37,7 +37,7 @@ SurfaceMaterial::SurfaceMaterial(const Scene& scene, const Material& material, c
       emissiveTexture(makeSampler(scene, material.emissiveTexture, TexelKind::color, mips)) {
     const float cutoff = alphaCutoff(material);
     if (cutoff <= 0.0f) return;
-    // Filters cost time at every candidate hit: only materials whose texture straddles the cutoff get one.
+    // Alpha tests cost time at every candidate hit, so only materials whose alpha straddles the cutoff get one.
     const glm::vec2 range = baseColorTexture.alphaRange() * material.baseColor.a;
     if (range.x >= cutoff) return;
     opacity = range.y < cutoff ? Opacity::absent : Opacity::masked;

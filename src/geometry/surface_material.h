@@ -7,11 +7,11 @@
 
 namespace probegi {
 
-/// How rays meet a material's triangles.
+/// How a material's triangles affect rays.
 enum class Opacity : std::uint8_t {
     opaque,  ///< every hit counts
-    masked,  ///< a hit counts where the texture's alpha reaches the cutoff
-    absent,  ///< no hit ever counts: the triangles are left out
+    masked,  ///< a hit counts if the texture's alpha reaches the cutoff
+    absent,  ///< no hit ever counts: the triangles are omitted
 };
 
 /// A Material with its textures resolved, ready for look-ups. Refers to the scene's texels and to `mips`.
@@ -29,7 +29,7 @@ struct SurfaceMaterial {
     glm::vec3 emission{0.0f};
     float roughness = 1.0f;
     float normalScale = 1.0f;
-    float textureAlphaCutoff = 0.0f;  ///< what the texture's alpha must reach: the cutoff over the alpha factor
+    float textureAlphaCutoff = 0.0f;  ///< threshold for the texture's alpha: the cutoff over the alpha factor
     Opacity opacity = Opacity::opaque;
     bool doubleSided = false;
     TextureSampler baseColorTexture;
@@ -38,7 +38,7 @@ struct SurfaceMaterial {
     TextureSampler emissiveTexture;
 };
 
-/// All materials of a scene, in its order. Without `mips` look-ups stay on level 0.
+/// All materials of a scene, in its order. Without `mips`, look-ups use level 0.
 std::vector<SurfaceMaterial> makeSurfaceMaterials(const Scene& scene, const MipMaps& mips = {});
 
 }  // namespace probegi

@@ -9,10 +9,10 @@
 
 namespace probegi {
 
-/// What nearly every hit reads of a vertex, in half a cache line. The ray tracer reads positions from here too.
+/// Vertex data that nearly every hit reads, in half a cache line. The ray tracer reads positions from here too.
 struct alignas(32) SurfaceVertex {
     glm::vec3 position{0.0f};
-    glm::vec3 normal{0.0f};  ///< unit; zero: the mesh brings none
+    glm::vec3 normal{0.0f};  ///< unit; zero: the mesh has none
     glm::vec2 uv{0.0f};
 };
 static_assert(sizeof(SurfaceVertex) == 32);
@@ -23,7 +23,7 @@ struct alignas(16) SurfaceTriangle {
 };
 static_assert(sizeof(SurfaceTriangle) == 16);
 
-/// Triangles of any number of primitives in one index space. Rarely read attributes lie apart; they are empty, or as
+/// Triangles of any number of primitives in one index space. Rarely read attributes are separate; they are empty or as
 /// long as the vertices.
 struct SurfaceMesh {
     std::vector<SurfaceVertex> vertices;
@@ -34,7 +34,7 @@ struct SurfaceMesh {
     bool empty() const noexcept { return triangles.empty(); }
 };
 
-/// Triangles that rays meet in the same space, split by what a candidate hit costs.
+/// Triangles in the same space, split by the cost of a candidate hit.
 struct SurfaceGroup {
     SurfaceMesh opaque;
     SurfaceMesh masked;
@@ -43,11 +43,11 @@ struct SurfaceGroup {
     static constexpr int kMasked = 1;
     const SurfaceMesh& mesh(int geometry) const noexcept { return geometry == kMasked ? masked : opaque; }
     bool empty() const noexcept { return opaque.empty() && masked.empty(); }
-    Bounds bounds() const noexcept;  ///< of all triangles' vertices; zero-sized where there are none
+    Bounds bounds() const noexcept;  ///< of all triangles' vertices; zero-sized if there are none
 };
 
-/// Matrix for normals of a given transform: inverse transpose up to a positive factor, right for mirrored and for
-/// flattening (singular) transforms too.
+/// Matrix for normals of a given transform: inverse transpose up to a positive factor, also valid for mirroring and
+/// singular transforms.
 glm::mat3 normalMatrix(const glm::mat4& toWorld);
 
 /// Appends a mesh, transformed. A mirroring transform swaps the winding, so that the front stays the front.

@@ -9,7 +9,7 @@ namespace probegi {
 
 namespace {
 
-/// A triangle's corners in the space that is shaded in, and where on it the hit is.
+/// A triangle's corners in shading space, and the hit's position on it.
 struct Corners {
     const SurfaceVertex& a;
     const SurfaceVertex& b;
@@ -45,7 +45,7 @@ struct ConeOfRay {
     float distance;  ///< metres to the hit
 };
 
-/// What a ray's cone covers of a triangle.
+/// Footprint of a ray's cone on a triangle.
 struct ConeFootprint {
     float metres = 0;  ///< across
     float area = 0;    ///< of the triangle in world space, twice

@@ -43,8 +43,8 @@ TextureSampler::TextureSampler(const TextureRef& ref, const TextureImage& image,
       m_nearest(ref.nearest),
       m_texCoord(std::uint8_t(ref.texCoord)) {}
 
-// Flattened: were texelSpan's results returned in registers, the two indices would be packed through memory, and
-// reading them back as one word stalls longer than all the rest of the look-up takes.
+// Flattened: otherwise texelSpan's two indices are written to memory separately and read back as one word, and that
+// stall takes longer than the rest of the look-up.
 [[gnu::flatten]] TextureSampler::Footprint TextureSampler::footprint(glm::vec2 uv, std::int32_t width,
                                                                      std::int32_t height) const noexcept {
     const glm::vec2 at = kernels::transformUv(m_rowU, m_rowV, uv);

@@ -14,31 +14,31 @@ namespace probegi {
 float srgbToLinear(std::uint8_t code) noexcept;
 
 /// A TextureRef resolved for look-ups. Copies no texels: the image's pixels must outlive the sampler.
-/// Filtering happens on linear values: each texel is decoded first, then blended. Look-ups without a level are on mip
-/// level 0: what many rays average needs no filter, for an unfiltered look-up is unbiased.
+/// Filtering is on linear values: each texel is decoded before blending. Look-ups without a level use mip level 0:
+/// averaged over many rays they need no filter, since unfiltered look-ups are unbiased.
 class TextureSampler {
 public:
-    /// No texture: all look-ups give 1.
+    /// No texture: all look-ups return 1.
     TextureSampler() = default;
-    /// `mips`: what makeMips() makes of the image, which must outlive the sampler; empty: level 0 is all there is.
+    /// `mips`: makeMips() of the image, which must outlive the sampler; empty: level 0 only.
     TextureSampler(const TextureRef& ref, const TextureImage& image, std::span<const std::uint8_t> mips = {});
 
     bool present() const noexcept { return m_texels != nullptr; }
     int texCoord() const noexcept { return m_texCoord; }
 
-    /// Levels that look-ups may name.
+    /// Number of levels for look-ups.
     int levels() const noexcept { return m_levels; }
-    /// Texels to an area of 1 in the mesh's uv space.
+    /// Texels per unit area of the mesh's uv space.
     float texelsPerUvArea() const noexcept;
 
     /// RGB decoded from sRGB. uv is the mesh's, before the material's uv transform; not finite: treated as 0.
     glm::vec3 color(glm::vec2 uv) const noexcept;
     /// The same between two mip levels, 0 <= level <= levels() - 1.
     glm::vec3 color(glm::vec2 uv, float level) const noexcept;
-    /// RGB as it is stored, divided by 255.
+    /// RGB as stored, divided by 255.
     glm::vec3 data(glm::vec2 uv) const noexcept;
     glm::vec3 data(glm::vec2 uv, float level) const noexcept;
-    /// Asks the caches for the texels that color(uv) and data(uv) will read.
+    /// Prefetches the texels that color(uv) and data(uv) read.
     void fetchAhead(glm::vec2 uv) const noexcept;
     /// Alpha divided by 255.
     float alpha(glm::vec2 uv) const noexcept;
@@ -66,7 +66,7 @@ private:
     std::int32_t m_levels = 1;
     std::int32_t m_width = 0;
     std::int32_t m_height = 0;
-    glm::vec3 m_rowU{1, 0, 0};  ///< the uv transform's upper two rows
+    glm::vec3 m_rowU{1, 0, 0};  ///< upper two rows of the uv transform
     glm::vec3 m_rowV{0, 1, 0};
     Wrap m_wrapU = Wrap::repeat;
     Wrap m_wrapV = Wrap::repeat;

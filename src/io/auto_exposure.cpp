@@ -11,11 +11,11 @@ namespace probegi {
 namespace {
 
 constexpr float kMiddleGrey = 0.18f;
-// Left out of the mean: corners that no light reaches, and lamps and sky.
-constexpr float kBlackStops = 10;  // below the brightest: what is as good as black, such as the void around a model
+// Excluded from the mean: unlit corners, and lamps and sky.
+constexpr float kBlackStops = 10;  // below the brightest: practically black, such as the void around a model
 constexpr double kDarkest = 0.10, kBrightest = 0.05;
 
-/// Logarithms to base 2 of all luminances that have one.
+/// Base-2 logarithms of all positive luminances.
 std::vector<float> logLuminances(const HdrImage& image) {
     std::vector<float> logs;
     logs.reserve(image.pixels.size());
@@ -34,7 +34,7 @@ float autoExposure(const HdrImage& image) {
     std::sort(logs.begin(), logs.end());
     const float bright = logs[std::size_t((1 - kBrightest) * double(logs.size() - 1))];
     logs.erase(logs.begin(), std::lower_bound(logs.begin(), logs.end(), bright - kBlackStops));
-    // Shares of all pixels: those that are black come first and are already gone.
+    // Shares are of all pixels; the black ones, the darkest, are already removed.
     const std::size_t pixels = image.pixels.size(), black = pixels - logs.size();
     const std::size_t darkest = std::size_t(kDarkest * double(pixels)),
                       brightest = std::size_t(kBrightest * double(pixels));

@@ -8,11 +8,11 @@
 
 namespace probegi::io {
 
-/// Memory that a file may make us fill: in proportion to its own size, with room for small ones (ReadLimits). Without
-/// it a few kilobytes that claim a huge picture, or name the same vertices a thousand times, fill any machine.
+/// Memory that reading a file may use: proportional to its size, with a minimum for small files (ReadLimits). Without
+/// it, a few kilobytes that claim a huge picture, or use the same vertices a thousand times, exhaust any machine.
 class Budget {
 public:
-    /// `share`: of the room in `limits`, one part of so many.
+    /// `share`: divisor of the room in `limits`.
     Budget(const ReadLimits& limits, std::uint64_t fileBytes, std::uint64_t share = 1)
         : m_name(limits.name),
           m_megabytes(limits.megabytes),
@@ -38,7 +38,7 @@ private:
     std::uint64_t m_used = 0;
 };
 
-/// Geometry and text: what is made of them takes many times their own memory.
+/// For geometry and text, which expand to many times their own size.
 constexpr std::uint64_t kGeometryShare = 16;
 
 }  // namespace probegi::io

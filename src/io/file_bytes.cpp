@@ -42,7 +42,7 @@ std::vector<std::uint8_t> readFile(const fs::path& path, std::uint64_t limit) {
     if (std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) {
         const bool failed = std::ferror(file.get()) != 0;
         refuse(ErrorCode::fileUnreadable, "cannot be read to its end ({})",
-               failed ? reason(errno) : std::string("it became shorter meanwhile"));
+               failed ? reason(errno) : std::string("it was truncated while being read"));
     }
     return bytes;
 }

@@ -8,7 +8,7 @@
 
 namespace probegi::io {
 
-/// The whole of a file. Throws Refused (without the path: guarded() adds it): fileNotFound, fileUnreadable,
+/// The contents of a file. Throws Refused (without the path: guarded() adds it): fileNotFound, fileUnreadable,
 /// outOfMemory for more than `limit` bytes.
 std::vector<std::uint8_t> readFile(const std::filesystem::path& path, std::uint64_t limit = 0xffffffffu);
 

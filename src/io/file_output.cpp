@@ -32,7 +32,7 @@ std::string reason(int error) {
     refuse(ErrorCode::writeFailed, "cannot be written ({}); check its permissions and the free space", reason(error));
 }
 
-/// Owns a descriptor. close() tells what closing found: it can be what finds a full disk.
+/// Owns a descriptor. close() reports errors, since a full disk may show only then.
 class Descriptor {
 public:
     explicit Descriptor(int number) : m_number(number) {}
@@ -68,14 +68,14 @@ fs::path folderOf(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// Where the bytes for a path go.
+/// Where the bytes written to a path go.
 struct Destination {
     enum class Kind { file, device, descriptor } kind = Kind::file;
-    fs::path path = {};   ///< no symbolic link any more; of a device as it was given
+    fs::path path = {};   ///< symbolic links resolved; for a device as given
     int descriptor = -1;  ///< of this process: /dev/stdout, /dev/fd/3
 };
 
-/// The number of an open descriptor of this process that a name in /proc/self/fd stands for.
+/// The descriptor of this process that a name in /proc/self/fd refers to.
 std::optional<int> descriptorOf(const fs::path& path) {
     std::error_code error;
     const fs::path descriptors = fs::canonical("/proc/self/fd", error);
@@ -118,7 +118,7 @@ void requireFolder(const fs::path& folder) {
     }
 }
 
-/// A name that no other process and no other thread of this one uses now.
+/// A name unique among all running processes and threads.
 fs::path temporaryName(const fs::path& path) {
     const std::size_t thread = std::hash<std::thread::id>{}(std::this_thread::get_id());
     fs::path name = path;
@@ -126,7 +126,7 @@ fs::path temporaryName(const fs::path& path) {
     return name;
 }
 
-/// A file without a name, or none where the system has no such thing: whatever ends the process, nothing is left.
+/// An unnamed file, or none if the system has no such thing: however the process ends, nothing is left behind.
 int openNameless(const fs::path& folder) {
 #ifdef O_TMPFILE
     if (::access("/proc/self/fd", X_OK) == 0) {  // through which it gets its name in the end
@@ -137,8 +137,7 @@ int openNameless(const fs::path& folder) {
     return -1;
 }
 
-/// A new file that is to become `path`: nameless where that can be, else of this name. Negative, and errno, where none
-/// can be made.
+/// A new file to become `path`: unnamed if possible, else with this name. On failure negative, with errno.
 struct NewFile {
     int descriptor;
     bool nameless;
@@ -150,7 +149,7 @@ NewFile openNew(const fs::path& path, const fs::path& name) {
     return {::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666), false};
 }
 
-/// Rights do not tell all: some file systems take no files of ours, whoever asks.
+/// Permissions are not enough: some file systems refuse new files regardless.
 void tryNew(const fs::path& path) {
     const fs::path name = temporaryName(path);
     const NewFile made = openNew(path, name);
@@ -165,7 +164,7 @@ int giveName(int descriptor, const fs::path& name) {
     return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0 ? 0 : errno;
 }
 
-/// Who may read the old file may read the new one, and nobody else.
+/// The new file gets the old one's permissions.
 void keepPermissions(const fs::path& old, int descriptor) {
     struct stat status {};
     if (::stat(old.c_str(), &status) == 0) (void)::fchmod(descriptor, status.st_mode & 07777);
@@ -186,7 +185,7 @@ int replaceFile(const fs::path& path, std::span<const std::uint8_t> bytes) {
     return failure;
 }
 
-/// errno, 0 for success. Opening a pipe waits for whoever reads it.
+/// errno, 0 for success. Opening a pipe blocks until there is a reader.
 int writeDevice(const fs::path& path, std::span<const std::uint8_t> bytes) {
     Descriptor device(::open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
     if (!device.open()) return errno;

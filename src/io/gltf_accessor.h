@@ -10,11 +10,11 @@
 
 namespace probegi::io {
 
-/// The bytes of a buffer view, once its index, offset and length are known to lie within its buffer.
+/// The bytes of a buffer view, after checking that it lies within its buffer.
 std::span<const std::uint8_t> bytesOfView(const tinygltf::Model& model, int view);
 
 /// Random access to the elements of an accessor. Construction checks every index, offset, stride and count against the
-/// buffers and refuses what does not fit; reading allocates nothing. The model must outlive it.
+/// buffers; reading allocates nothing. The model must outlive it.
 class AccessorView {
 public:
     AccessorView(const tinygltf::Model& model, int accessor);
@@ -37,7 +37,7 @@ private:
     const std::uint8_t* locate(std::size_t element) const;
     float component(const std::uint8_t* at) const;
 
-    const std::uint8_t* m_bytes = nullptr;  ///< null: all zeros, but for what sparse says
+    const std::uint8_t* m_bytes = nullptr;  ///< null: all zeros except sparse elements
     std::size_t m_stride = 0;
     std::size_t m_count = 0;
     int m_components = 0;

@@ -14,15 +14,15 @@ std::optional<AnimationPath> pathOf(Import& import, const std::string& user, con
     if (path == "translation") return AnimationPath::translation;
     if (path == "rotation") return AnimationPath::rotation;
     if (path == "scale") return AnimationPath::scale;
-    import.warn(path == "weights" ? fmt::format("{}: morph target weights are not supported and stay still", user)
-                                  : fmt::format("{}: an unknown property is animated and stays still", user));
+    import.warn(path == "weights" ? fmt::format("{}: morph target weights are not supported and are not animated", user)
+                                  : fmt::format("{}: the animation of an unknown property is ignored", user));
     return {};
 }
 
 Interpolation interpolationOf(Import& import, const std::string& user, const std::string& name) {
     if (name == "STEP") return Interpolation::step;
     if (name == "CUBICSPLINE") return Interpolation::cubicSpline;
-    if (name != "LINEAR") import.warn(fmt::format("{}: unknown interpolation; taken as LINEAR", user));
+    if (name != "LINEAR") import.warn(fmt::format("{}: unknown interpolation; LINEAR is used", user));
     return Interpolation::linear;
 }
 
@@ -63,7 +63,7 @@ void readValues(Import& import, int output, AnimationChannel& channel) {
     }
 }
 
-/// Empty for a channel that changes nothing which ProbeGI shows.
+/// Empty for a channel without visible effect in ProbeGI.
 std::optional<AnimationChannel> importChannel(Import& import, const std::string& user,
                                               const tinygltf::Animation& animation,
                                               const tinygltf::AnimationChannel& c) {
@@ -73,7 +73,7 @@ std::optional<AnimationChannel> importChannel(Import& import, const std::string&
     const std::optional<AnimationPath> path = pathOf(import, user, c.target_path);
     if (channel.node < 0 || !path) return {};
     if (import.scene().nodes[std::size_t(channel.node)].matrix) {
-        import.warn(fmt::format("{}: a node with a matrix cannot be animated and stays still", user));
+        import.warn(fmt::format("{}: a node with a matrix cannot be animated; the channel is ignored", user));
         return {};
     }
     const auto& samplers = animation.samplers;

@@ -20,7 +20,7 @@ std::unique_ptr<draco::Mesh> decompress(std::span<const std::uint8_t> bytes) {
     return std::move(result).value();
 }
 
-/// Draco keeps integers as they are; whether they mean fractions is said by the glTF accessor.
+/// Draco keeps integers unscaled; the glTF accessor says whether they are normalised.
 float scaleOf(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const std::string& name,
               const draco::PointAttribute& attribute) {
     const auto found = primitive.attributes.find(name);

@@ -15,7 +15,7 @@ struct DracoAttribute {
     std::vector<float> values;
 };
 
-/// A primitive that KHR_draco_mesh_compression stores.
+/// A primitive compressed by KHR_draco_mesh_compression.
 struct DracoPrimitive {
     std::vector<std::uint32_t> indices;  ///< 3 per triangle, each below the number of vertices
     std::map<std::string, DracoAttribute> attributes;

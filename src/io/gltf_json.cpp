@@ -32,11 +32,11 @@ Bytes jsonOf(Bytes bytes) {
     const std::uint32_t version = wordAt(bytes, 4);
     if (version != 2) refuse(ErrorCode::unsupported, "is binary glTF version {}; only 2 is supported", version);
     const std::size_t length = wordAt(bytes, kJsonLengthAt);
-    if (length > bytes.size() - kJsonAt) refuseMalformed("ends before its JSON does; it has been cut off");
+    if (length > bytes.size() - kJsonAt) refuseMalformed("ends before its JSON does; the file is cut off");
     return bytes.subspan(kJsonAt, length);
 }
 
-/// The elements of an array member; none where it is missing or something else (tinygltf says so later).
+/// The elements of an array member; none if it is missing or of another type (tinygltf reports that later).
 const json& arrayOf(const json& object, const char* member) {
     static const json kNone = json::array();
     const auto found = object.find(member);
@@ -50,7 +50,7 @@ std::optional<std::uint64_t> unsignedOf(const json& object, const char* member) 
     return found->get<std::uint64_t>();
 }
 
-/// tinygltf copies the binary chunk into every buffer without a uri; only the first may be one.
+/// tinygltf copies the binary chunk into every buffer without a uri; only the first may lack one.
 void checkBuffers(const json& root) {
     bool first = true;
     for (const json& buffer : arrayOf(root, "buffers")) {
@@ -60,7 +60,7 @@ void checkBuffers(const json& root) {
     }
 }
 
-/// tinygltf takes the address of an image's first byte before it looks at any size.
+/// tinygltf takes the address of an image's first byte before checking sizes.
 void checkImages(const json& root) {
     const json& views = arrayOf(root, "bufferViews");
     const json& buffers = arrayOf(root, "buffers");
@@ -90,7 +90,7 @@ bool isCompressed(const json& primitive) {
            extensions->contains("KHR_draco_mesh_compression");
 }
 
-/// Draco holds the indices itself. Returns whether there were any to drop.
+/// Drops indices that Draco stores itself. Returns whether there were any.
 bool dropCompressedIndices(json& root) {
     bool dropped = false;
     if (arrayOf(root, "meshes").empty()) return false;
@@ -108,7 +108,7 @@ void putWord(std::vector<std::uint8_t>& bytes, std::size_t at, std::size_t value
     std::memcpy(bytes.data() + at, &word, sizeof(word));
 }
 
-/// The file with other JSON in it.
+/// The file with its JSON replaced.
 std::vector<std::uint8_t> replaceJson(Bytes bytes, const json& root) {
     std::string text = root.dump(-1, ' ', false, json::error_handler_t::replace);
     if (!isBinaryGltf(bytes)) return {text.begin(), text.end()};

@@ -43,7 +43,7 @@ Light importLight(Import& import, const std::string& user, const tinygltf::Light
     return light;
 }
 
-/// Whether the camera is one that ProbeGI has.
+/// Returns whether ProbeGI supports the camera.
 bool importCamera(Import& import, const std::string& user, const tinygltf::Camera& c) {
     if (c.type != "perspective") {
         import.warn(fmt::format("{} is {}; only perspective cameras are supported, it is left out", user, c.type));

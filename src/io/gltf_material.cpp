@@ -9,7 +9,7 @@ namespace probegi::io {
 
 namespace {
 
-/// Decodes images on first use, each one once.
+/// Decodes each image on first use.
 class Images {
 public:
     explicit Images(Import& import) : m_import(import) {}
@@ -53,8 +53,8 @@ Wrap wrapOf(int mode) {
 }
 
 /// KHR_texture_transform: uv' = offset + rotation * scale * uv. A positive rotation turns the uvs counter-clockwise as
-/// seen on the image, that is with v pointing down; the sample code in the extension's text has the opposite sign, but
-/// its words, its test model and the renderers agree on this one (KhronosGroup/glTF issue 1563).
+/// seen on the image, with v pointing down; the sample code in the extension's text has the opposite sign, but its
+/// prose, test model and renderers agree on this one (KhronosGroup/glTF issue 1563).
 glm::mat3 uvTransformOf(const tinygltf::Value& transform) {
     const double angle = numberOf(transform, "rotation", 0.0);
     const auto cosine = float(std::cos(angle));
@@ -103,7 +103,7 @@ TextureRef importTexture(Import& import, Images& images, const std::string& user
     return ref;
 }
 
-/// A factor that glTF limits to lower..upper; a file that exceeds it gets the nearest value and a warning.
+/// A factor that glTF limits to lower..upper; values outside are clamped, with a warning.
 float factor(Import& import, const std::string& user, const char* member, double value, float upper = 1.0f) {
     const float number = finiteFloat(user, member, value);
     const float limited = std::clamp(number, 0.0f, upper);
@@ -114,7 +114,7 @@ float factor(Import& import, const std::string& user, const char* member, double
 AlphaMode alphaModeOf(Import& import, const std::string& user, const std::string& mode) {
     if (mode == "MASK") return AlphaMode::mask;
     if (mode == "BLEND") return AlphaMode::blend;
-    if (mode != "OPAQUE") import.warn(fmt::format("{}: unknown alpha mode; taken as OPAQUE", user));
+    if (mode != "OPAQUE") import.warn(fmt::format("{}: unknown alpha mode; OPAQUE is used", user));
     return AlphaMode::opaque;
 }
 

@@ -83,7 +83,7 @@ std::vector<std::uint32_t> readIndices(Import& import, const VertexSource& sourc
     return out;
 }
 
-/// An optional attribute of the vertices in use; empty where the file has none.
+/// An optional attribute of the vertices in use; empty if the file has none.
 template <class Vector>
 std::vector<Vector> readAttribute(Import& import, const VertexSource& source, const char* name, std::size_t vertices,
                                   std::span<const std::uint32_t> used) {
@@ -110,7 +110,7 @@ bool allFinite(const std::vector<Vector>& values) {
     });
 }
 
-/// Makes normals unit long. One without a direction becomes that of a triangle at its vertex.
+/// Normalises normals. Zero-length ones are replaced by that of a triangle at the vertex.
 void repairNormals(Import& import, const std::string& user, Primitive& p) {
     const auto unit = [](glm::vec3 v) {
         const float length = glm::length(v);
@@ -136,7 +136,7 @@ void repairNormals(Import& import, const std::string& user, Primitive& p) {
     }
 }
 
-/// Makes tangents unit long with handedness +-1; drops them all where one is unusable, so that the uvs give them.
+/// Normalises tangents, with handedness +-1; drops all if one is unusable, so that they are derived from the uvs.
 void repairTangents(Primitive& p) {
     for (glm::vec4& tangent : p.tangents) {
         const float length = glm::length(glm::vec3(tangent));
@@ -148,7 +148,7 @@ void repairTangents(Primitive& p) {
     }
 }
 
-/// The material of glTF 2.0 for primitives that name none (section 3.7.2.1), made when it is first needed.
+/// glTF 2.0's default material for primitives without one (section 3.7.2.1), made on first use.
 int defaultMaterial(Import& import) {
     auto& materials = import.scene().materials;
     if (materials.size() == import.model.materials.size()) {
@@ -173,7 +173,7 @@ void importAttributes(Import& import, const std::string& user, const VertexSourc
     if (!allFinite(out.uv0) || !allFinite(out.uv1)) refuseMalformed("a texture coordinate is not a finite number");
 }
 
-/// Empty for one that has nothing to draw.
+/// Empty if there is nothing to draw.
 std::optional<Primitive> importPrimitive(Import& import, const std::string& user, const tinygltf::Primitive& p) {
     const std::optional<Topology> topology = topologyOf(p.mode);
     if (!topology) {
@@ -189,7 +189,7 @@ std::optional<Primitive> importPrimitive(Import& import, const std::string& user
         return {};
     }
     Primitive out;
-    // Draco's connectivity is always a list of triangles, whatever the mode says of the uncompressed form.
+    // Draco always stores a triangle list, whatever the mode of the uncompressed form.
     const Topology stored = source.draco() ? Topology::triangles : *topology;
     out.indices = toTriangles(readIndices(import, source, p.indices, positions->count()), stored);
     if (out.indices.empty()) return {};

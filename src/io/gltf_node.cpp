@@ -8,8 +8,7 @@ namespace probegi::io {
 
 namespace {
 
-/// The roots of the scene that is shown: the default one, else the first; without any scene, every node that is no
-/// other's child.
+/// The roots of the scene shown: the default one, else the first; without any scene, every node without a parent.
 std::vector<int> rootNodes(const Import& import) {
     const tinygltf::Model& model = import.model;
     if (!model.scenes.empty()) {
@@ -31,13 +30,13 @@ std::vector<int> rootNodes(const Import& import) {
 
 std::optional<glm::mat4> matrixOf(const std::string& user, const std::vector<double>& values) {
     if (values.empty()) return {};
-    if (values.size() != 16) refuseMalformed("{}: a matrix of {} numbers", user, values.size());
+    if (values.size() != 16) refuseMalformed("{}: its matrix has {} numbers, not 16", user, values.size());
     glm::mat4 matrix(1.0f);
     for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = finiteFloat(user, "matrix", values[std::size_t(i)]);
     return matrix;
 }
 
-/// `count` numbers, or the given ones where the file has none.
+/// `count` numbers, or the fallback if the file has none.
 glm::vec4 vectorOf(const std::string& user, const char* member, const std::vector<double>& values, int count,
                    glm::vec4 fallback) {
     if (values.empty()) return fallback;
@@ -81,8 +80,8 @@ int meshOf(Import& import, const std::string& user, const tinygltf::Node& n) {
     return slot;
 }
 
-/// The node's camera, or -1. Each place has a camera of its own, so that each can have a name: one that stands in
-/// several has its own name in the first and is called after the node in the others.
+/// The node's camera, or -1. A camera used by several nodes is copied for each: the first copy keeps its name, the
+/// others are named after their node.
 int cameraOf(Import& import, const std::string& user, const tinygltf::Node& n) {
     if (n.camera < 0) return -1;
     const std::size_t model = checkedIndex(user, "camera", n.camera, import.cameras.size());

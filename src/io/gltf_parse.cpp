@@ -22,14 +22,14 @@ bool supported(const std::string& extension) {
     return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end();
 }
 
-/// Where files that the glTF names may be, and how many bytes of them may still be read.
+/// Where external files may be, and how many more bytes of them may be read.
 struct Neighbours {
     fs::path folder;
     std::vector<fs::path>& read;
     std::uint64_t bytesLeft = 0xffffffffu;
 };
 
-/// A file may name what lies beside it or below, nothing else on this machine or on any other.
+/// A file may refer to files in its own folder or below, and nothing else on this or any other machine.
 fs::path resolve(const Neighbours& neighbours, const std::string& uri) {
     const fs::path relative(uri);
     const bool leaves =
@@ -77,7 +77,7 @@ bool writeNothing(std::string*, const std::string&, const std::vector<unsigned c
     return false;
 }
 
-/// Images are decoded later, once, and only where a material uses them; those in a buffer view stay there.
+/// Images are decoded later, once, and only if a material uses them; those in a buffer view stay there.
 bool keepEncoded(tinygltf::Image* image, int index, std::string*, std::string*, int, int, const unsigned char* bytes,
                  int size, void*) {
     if (image->bufferView >= 0) return true;
@@ -86,7 +86,7 @@ bool keepEncoded(tinygltf::Image* image, int index, std::string*, std::string*, 
     return true;
 }
 
-/// tinygltf ends its messages with line breaks; ours are parts of one sentence.
+/// tinygltf's messages contain line breaks; ours are one sentence.
 std::string oneLine(std::string text) {
     while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
     std::replace(text.begin(), text.end(), '\n', ' ');
@@ -110,7 +110,7 @@ void checkExtensions(const tinygltf::Model& model, std::vector<std::string>& war
     }
 }
 
-/// tinygltf's model, whatever is in it.
+/// tinygltf's model, unchecked.
 tinygltf::Model load(tinygltf::TinyGLTF& reader, std::span<const std::uint8_t> bytes, std::string& warning) try {
     tinygltf::Model model;
     std::string error;
@@ -123,7 +123,7 @@ tinygltf::Model load(tinygltf::TinyGLTF& reader, std::span<const std::uint8_t> b
     return model;
 } catch (const std::bad_alloc&) {
     throw;
-} catch (const std::exception&) {  // it asks JSON for what is not there
+} catch (const std::exception&) {  // it accesses missing JSON members
     refuseMalformed("is not valid glTF: a value is missing or of the wrong kind; export it again");
 }
 

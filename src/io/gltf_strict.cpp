@@ -14,10 +14,10 @@ namespace {
 
 using nlohmann::json;
 
-// Of accessors, buffer views and buffers: a negative one would be taken for none, or for a huge one.
+// Of accessors, buffer views and buffers: a negative one would be treated as missing or huge.
 constexpr std::array<std::string_view, 6> kSizes{"buffer",     "bufferView", "byteLength",
                                                  "byteOffset", "byteStride", "count"};
-// Indices: one that is no whole number would be taken for none.
+// Indices: a non-integer would be treated as missing.
 constexpr std::array<std::string_view, 13> kIndices{"camera",   "indices", "input",  "light",   "material",
                                                     "mesh",     "node",    "output", "sampler", "scene",
                                                     "skeleton", "skin",    "source"};
@@ -42,7 +42,7 @@ void checkNumber(const std::string& path, const std::string& name, const json& n
     }
 }
 
-/// Of one element of an array of the root. What others added to the format has rules of its own. Not deep: the text
+/// Checks one element of a root array. Extensions have their own rules and are skipped. Recursion is safe: the text
 /// has passed parseGltfText().
 void checkNumbers(const std::string& path, const json& value) {
     if (value.is_array()) {
@@ -71,7 +71,7 @@ void checkVersion(const json& root) {
     refuse(ErrorCode::unsupported, "asks for glTF '{:.20}' or newer (asset.minVersion); 2.0 is supported", text);
 }
 
-/// Gives data of another media type that of plain bytes: what they are is seen from themselves. Returns whether it did.
+/// Changes unknown media types to that of plain bytes; the content identifies itself. Returns whether it did.
 bool checkDataUri(const std::string& path, json& object) {
     constexpr std::string_view kScheme = "data:";
     constexpr std::string_view kMark = ";base64,";

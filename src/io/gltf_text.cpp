@@ -6,7 +6,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Walks through the text and makes nothing of it.
+/// Parses the text without building anything.
 class Weigher final : public nlohmann::json_sax<json> {
 public:
     explicit Weigher(Budget& budget) : m_budget(budget) {}
@@ -33,11 +33,11 @@ public:
         constexpr int kNumberTooLarge = 406;
         if (fault.id == kNumberTooLarge)
             refuseMalformed("its JSON has a number at byte {} that is too large", position);
-        refuseMalformed("is not glTF: its JSON breaks off at byte {}", position);
+        refuseMalformed("is not glTF: its JSON is invalid or cut off at byte {}", position);
     }
 
 private:
-    // Measured on nodes: two trees of JSON, tinygltf's node and ours.
+    // Measured on nodes: two JSON trees, tinygltf's node and ours.
     static constexpr std::uint64_t kObjectBytes = 512;
     static constexpr std::uint64_t kArrayBytes = 96;
     static constexpr std::uint64_t kValueBytes = 32;

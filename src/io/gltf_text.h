@@ -8,9 +8,9 @@
 
 namespace probegi::io {
 
-/// The JSON of a glTF file. What its values will take as objects is charged while they are only being counted, so that
-/// a small file full of them fills no memory. Refuses what is no JSON object, and what is nested more deeply than
-/// tinygltf, which recurses, survives.
+/// Parses the JSON of a glTF file. The memory for its values is charged in a counting pass first, so that a small file
+/// with very many values cannot exhaust memory. Refuses anything but a JSON object, and nesting too deep for tinygltf's
+/// recursion.
 nlohmann::json parseGltfText(std::span<const std::uint8_t> text, Budget& budget);
 
 }  // namespace probegi::io

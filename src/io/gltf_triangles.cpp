@@ -13,7 +13,7 @@ std::vector<std::uint32_t> toTriangles(std::vector<std::uint32_t> vertices, Topo
     if (vertices.size() < 3) return corners;
     corners.reserve(3 * (vertices.size() - 2));
     for (std::size_t i = 0; i + 2 < vertices.size(); ++i) {
-        // Every second triangle of a strip is wound the other way round.
+        // Every second triangle of a strip has the opposite winding.
         const bool flip = topology == Topology::strip && i % 2 == 1;
         corners.push_back(topology == Topology::fan ? vertices[0] : vertices[i]);
         corners.push_back(vertices[flip ? i + 2 : i + 1]);

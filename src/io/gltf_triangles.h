@@ -6,14 +6,14 @@
 
 namespace probegi::io {
 
-/// How a list of vertices makes triangles (glTF 2.0, section 3.7.2.1).
+/// Triangle topologies (glTF 2.0, section 3.7.2.1).
 enum class Topology : std::uint8_t { triangles, strip, fan };
 
-/// Three corners a triangle, counter-clockwise from the front. Vertices left over at the end are dropped.
+/// Three corners per triangle, counter-clockwise from the front. Excess vertices at the end are dropped.
 std::vector<std::uint32_t> toTriangles(std::vector<std::uint32_t> vertices, Topology topology);
 
-/// Renumbers the corners so that only vertices in use remain, in their old order; returns the old numbers of those.
-/// `corners` must be below `vertices`.
+/// Renumbers the corners so that only vertices in use remain, in their old order; returns their old numbers. `corners`
+/// must be below `vertices`.
 std::vector<std::uint32_t> compactVertices(std::vector<std::uint32_t>& corners, std::size_t vertices);
 
 }  // namespace probegi::io

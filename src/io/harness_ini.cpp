@@ -17,7 +17,7 @@ namespace probegi::io {
 
 namespace {
 
-/// Full key, e.g. "scene.lights.0.color", to the words of its value.
+/// Full key, e.g. "scene.lights.0.color" -> the words of its value.
 using Settings = std::map<std::string, std::vector<std::string>>;
 
 Settings parse(std::istream& stream) {
@@ -63,7 +63,7 @@ bool contains(const Settings& settings, const std::string& key) {
     return settings.find(key) != settings.end();
 }
 
-/// The rotation that turns a node's -Z axis to a direction.
+/// The rotation that points a node's -Z axis along a direction.
 glm::quat facing(const std::string& key, glm::vec3 direction) {
     const float length = glm::length(direction);
     if (!(length > 1e-12f) || !std::isfinite(length)) refuseMalformed("the setting {} has no direction", key);
@@ -151,7 +151,7 @@ void forEachEntry(const Settings& settings, const std::string& list, const Add& 
     }
 }
 
-/// Numbers of the volumes besides the first.
+/// Indices of the volumes after the first.
 std::vector<std::string> furtherVolumes(const Settings& settings) {
     constexpr std::string_view kPrefix = "ddgi.volume.";
     std::vector<std::string> numbers;
@@ -175,15 +175,15 @@ std::vector<std::string> ignoredSettings(const Settings& settings) {
     if (const auto further = furtherVolumes(settings); !further.empty())
         sentences.push_back(
             fmt::format("of the settings' {} probe volumes only ddgi.volume.0 is used, {} ignored: "
-                        "light outside volume 0 is that of its nearest probes",
+                        "points outside volume 0 use its nearest probes",
                         further.size() + 1,
                         further.size() == 1 ? further[0] + " is" : fmt::format("{} are", fmt::join(further, ", "))));
     constexpr const char* kRotation = "ddgi.volume.0.rotation";
     if (contains(settings, kRotation) && vector(settings, kRotation, glm::vec3(0.0f)) != glm::vec3(0.0f))
-        sentences.push_back(fmt::format("the setting {} is ignored: the probe grid lies along the axes", kRotation));
+        sentences.push_back(fmt::format("the setting {} is ignored: the probe grid is axis-aligned", kRotation));
     constexpr const char* kScrolling = "ddgi.volume.0.infiniteScrolling.enabled";
     if (saysYes(settings, kScrolling))
-        sentences.push_back(fmt::format("the setting {} is ignored: the probe grid stands still", kScrolling));
+        sentences.push_back(fmt::format("the setting {} is ignored: the probe grid does not scroll", kScrolling));
     return sentences;
 }
 

@@ -8,14 +8,13 @@
 
 namespace probegi::io {
 
-/// Adds what a settings file of NVIDIA's RTXGI test harness says to a scene: lights, cameras, sky and the first probe
-/// grid. A file without any of these changes nothing. Returns a sentence for each thing in it that changes how a probe
-/// grid lies and is ignored: further volumes, a turned volume, a volume that scrolls. Throws Refused for a value that
-/// cannot be read.
+/// Adds the settings of a file of NVIDIA's RTXGI test harness to a scene: lights, cameras, sky and the first probe
+/// grid. Returns a sentence for each ignored setting that affects the probe grid: further volumes, rotation, scrolling.
+/// Throws Refused for a value that cannot be read.
 ///
-/// Conventions of that file: yaw and pitch in degrees, forward = (sin yaw, 0, -cos yaw) at pitch 0, positive pitch
+/// Conventions of these files: yaw and pitch in degrees, forward = (sin yaw, 0, -cos yaw) at pitch 0, positive pitch
 /// looks down, fov vertical; light type 0 directional, 1 spot, 2 point, directions of any length, cone angles in
-/// degrees from the axis, color x power is our intensity; the grid's origin is its centre (ours is its first probe).
+/// degrees from the axis, color x power is our intensity; the grid's origin is its centre (ours: its first probe).
 std::vector<std::string> addHarnessSettings(std::istream& settings, Scene& scene);
 
 }  // namespace probegi::io

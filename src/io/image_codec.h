@@ -12,16 +12,16 @@ namespace probegi::io {
 
 enum class ImageFormat : std::uint8_t { exr, hdr, png, jpeg };
 
-/// Linear pixels of a picture file; what the 8 and 16 bit formats store is taken as sRGB.
+/// Linear pixels of a picture file; 8 and 16 bit formats are decoded as sRGB.
 HdrImage decodeImage(std::span<const std::uint8_t> bytes, ImageFormat format, const ReadLimits& limits = {});
 
-/// A PNG or JPEG as a scene's texture, told apart by its first bytes.
+/// A PNG or JPEG, recognised by its first bytes, as a scene's texture.
 TextureImage decodeTexture(std::span<const std::uint8_t> bytes);
 
 /// Width x height of decodeTexture's result, without decoding.
 std::uint64_t texturePixels(std::span<const std::uint8_t> bytes);
 
-// One format each; the bytes are known to begin as that format does.
+// One format each; the magic number has been checked.
 HdrImage decodeExr(std::span<const std::uint8_t> bytes, const ReadLimits& limits = {});
 HdrImage decodeHdr(std::span<const std::uint8_t> bytes, const ReadLimits& limits = {});
 HdrImage decodePng(std::span<const std::uint8_t> bytes, const ReadLimits& limits = {});
@@ -31,8 +31,8 @@ TextureImage decodeJpegTexture(std::span<const std::uint8_t> bytes);
 std::uint64_t pngPixels(std::span<const std::uint8_t> bytes);
 std::uint64_t jpegPixels(std::span<const std::uint8_t> bytes);
 
-/// A picture of this size with room for its pixels but none of them yet, so that a file which has fewer than it claims
-/// fills no more memory than it has. Refuses what is beyond the limits.
+/// A picture of this size with its pixels reserved but not created, so that a file with fewer pixels than it claims
+/// uses no more memory than it has. Refuses sizes beyond the limits.
 HdrImage emptyImage(int width, int height, std::size_t fileBytes, const ReadLimits& limits);
 
 /// 32-bit float R, G, B, ZIP-compressed.
@@ -41,8 +41,8 @@ std::vector<std::uint8_t> encodeExr(const HdrImage& image);
 /// 8-bit sRGB through the tone map.
 std::vector<std::uint8_t> encodePng(const HdrImage& image, const ToneMap& toneMap);
 
-/// Refuses a size that is beyond the documented 2^28 pixels, or that so few bytes cannot honestly hold: the densest
-/// compression (deflate of 1-bit pixels) packs about 8,000 pixels into a byte, so a file that claims more is a trap.
+/// Refuses sizes beyond the documented 2^28 pixels, or implausible for so few bytes: the densest compression (deflate
+/// of 1-bit pixels) packs about 8,000 pixels into a byte, so a file that claims more is malicious.
 void checkImageSize(std::int64_t width, std::int64_t height, std::size_t fileBytes);
 
 }  // namespace probegi::io

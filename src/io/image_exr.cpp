@@ -61,7 +61,7 @@ struct Window {
     int height = 0;
 };
 
-/// Bytes that OpenEXR unpacks at a time: a block of lines, or a row of tiles.
+/// Bytes that OpenEXR unpacks at once: a block of lines, or a row of tiles.
 std::uint64_t blockBytes(const Imf::Header& header, const Window& window, int channels) {
     constexpr int kMostLines = 256;  // in a block of any compression
     auto across = std::uint64_t(window.width);
@@ -73,7 +73,7 @@ std::uint64_t blockBytes(const Imf::Header& header, const Window& window, int ch
     return across * down * std::uint64_t(channels) * sizeof(float);
 }
 
-/// The area that has pixels, once nothing in the header asks for more memory than the file can justify.
+/// The data window, after checking that nothing in the header needs more memory than the file justifies.
 Window checkedWindow(const Imf::Header& header, std::size_t fileBytes, const ReadLimits& limits) {
     constexpr int kFarAway = 1 << 24;
     const Imath::Box2i& box = header.dataWindow();
@@ -97,7 +97,7 @@ Window checkedWindow(const Imf::Header& header, std::size_t fileBytes, const Rea
     return window;
 }
 
-/// Looks at the header before OpenEXR allocates anything from it.
+/// Checks the header before OpenEXR allocates anything from it.
 Window inspect(std::span<const std::uint8_t> bytes, const ReadLimits& limits) {
     SpanReader stream(bytes);
     std::array<std::uint8_t, 8> start{};
@@ -139,7 +139,7 @@ std::array<const char*, 3> pickChannels(const Imf::ChannelList& channels) {
     return names;
 }
 
-/// Where OpenEXR writes the channels of these names.
+/// Sets where OpenEXR writes the channels of these names.
 void setFrame(Imf::InputFile& file, HdrImage& image, const Window& window, std::span<const char* const> names) {
     Imf::FrameBuffer frame;
     for (std::size_t c = 0; c < names.size(); ++c) {
@@ -160,7 +160,7 @@ HdrImage decodeExr(std::span<const std::uint8_t> bytes, const ReadLimits& limits
     const std::array<const char*, 3> names = pickChannels(file.header().channels());
     const bool grey = names[0] && names[1] && std::strcmp(names[0], names[1]) == 0;
     HdrImage image = emptyImage(window.width, window.height, bytes.size(), limits);
-    // Some lines at a time; their memory is reserved and stays where it is.
+    // Some lines at a time; their memory is reserved, so it does not move.
     constexpr int kLines = 256;
     for (int line = 0; line < window.height; line += kLines) {
         const int end = std::min(line + kLines, window.height);

@@ -35,10 +35,10 @@ public:
     int width() const { return m_width; }
     int height() const { return m_height; }
 
-    /// `out` has width x height x the format's bytes. Whatever the decoder so much as warns of is damage, but for
-    /// padding between segments, which some programs write.
+    /// `out` has width x height x the format's bytes. Decoder warnings count as damage, except padding between
+    /// segments, which some programs write.
     void decode(std::span<std::uint8_t> out, TJPF format) {
-        // Progressive pictures of a thousand scans would take hours.
+        // A progressive picture of a thousand scans would take hours.
         const int result = tjDecompress2(m_handle.get(), m_bytes.data(), m_bytes.size(), out.data(), m_width, 0,
                                          m_height, format, TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS);
         if (result == 0) return;

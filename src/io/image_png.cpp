@@ -14,7 +14,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// What libpng allocates; freed also where the header is refused.
+/// libpng's allocations; freed even if the header is refused.
 struct PngStructs {
     PngStructs() = default;
     ~PngStructs() { png_destroy_read_struct(&png, &info, nullptr); }
@@ -25,7 +25,7 @@ struct PngStructs {
     png_infop info = nullptr;
 };
 
-/// libpng's decoder for one picture, row by row: no more memory is used than pixels are there.
+/// libpng's decoder for one picture, row by row, so memory grows only with the pixels present.
 class PngReader {
 public:
     explicit PngReader(Bytes bytes) : m_bytes(bytes) {
@@ -50,7 +50,7 @@ public:
             png_set_add_alpha(m_png, 0xff, PNG_FILLER_AFTER);
         });
     }
-    /// Three channels of 16 bits, which loses nothing of either depth.
+    /// Three channels of 16 bits: lossless for either depth.
     void asRgb16() {
         run([this] {
             png_set_expand_16(m_png);
@@ -70,12 +70,12 @@ public:
         });
         const std::size_t rowBytes = png_get_rowbytes(m_png, m_info);
         const auto rows = std::size_t(height());
-        // Interlaced rows come piece by piece: the last pass completes what the others began.
+        // Interlaced rows arrive in pieces; the last pass completes them.
         std::vector<std::uint8_t> buffer(m_passes > 1 ? rows * rowBytes : rowBytes);
         for (int pass = 0; pass < m_passes; ++pass) {
             for (std::size_t y = 0; y < rows; ++y) {
                 m_row = buffer.data() + (m_passes > 1 ? y * rowBytes : 0);
-                // With the last row libpng reads whatever image data there still is.
+                // After the last row libpng reads all remaining image data.
                 if (pass + 1 == m_passes && y + 1 == rows) m_surplusLeft = rowBytes + kMostSurplus;
                 run([this] { png_read_row(m_png, m_row, nullptr); });
                 if (pass + 1 == m_passes) sink(std::span<const std::uint8_t>(m_row, rowBytes));
@@ -87,7 +87,7 @@ public:
 private:
     static constexpr std::size_t kMostSurplus = 1 << 16;  // unpacks to 64 MB at most
 
-    /// libpng leaves by longjmp: `step` may own nothing.
+    /// libpng exits by longjmp: `step` must not own anything.
     template <class Step>
     void run(const Step& step) {
         if (setjmp(png_jmpbuf(m_png)) != 0) {
@@ -99,8 +99,8 @@ private:
     void readHeader() {
         run([this] {
             png_set_read_fn(m_png, this, onRead);
-            png_set_user_limits(m_png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // ours are checked in our own words
-            // Texts, profiles and the like, of any size, are skipped; what is left has 256 entries at most.
+            png_set_user_limits(m_png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // ours are checked elsewhere
+            // Texts, profiles and the like, of any size, are skipped; the rest has at most 256 entries.
             png_set_keep_unknown_chunks(m_png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
             png_read_info(m_png, m_info);
         });
@@ -123,7 +123,7 @@ private:
         reader.m_at += count;
     }
 
-    /// What follows the last pixel is unpacked only to be checked: a file could have gigabytes of it.
+    /// Data after the last pixel is unpacked only to be checked; a file could have gigabytes of it.
     void countSurplus(std::size_t count) {
         constexpr std::uint32_t kImageData = 0x49444154;  // "IDAT"
         if (!m_surplusLeft || png_get_io_chunk_type(m_png) != kImageData) return;

@@ -43,8 +43,8 @@ Size checkedSize(Bytes bytes) {
     return size;
 }
 
-/// Feeds stb's .hdr reader. Past the end stb would read zeros, which it takes for runs of no pixels and repeats for
-/// ever; it gets ones instead, which make it stop, and a note is kept that it asked.
+/// Feeds stb's .hdr reader. Past the end stb would read zeros, which it treats as empty runs and loops for ever; it
+/// gets ones instead, which make it stop, and the overrun is recorded.
 struct HdrSource {
     Bytes bytes;
     std::size_t at = 0;

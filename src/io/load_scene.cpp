@@ -13,14 +13,14 @@ using namespace io;
 
 namespace {
 
-/// validate(), with the file whose fault it would be.
+/// validate(), with the file's name in the error.
 Result<void> validateFrom(const std::filesystem::path& path, const Scene& scene) {
     const auto valid = validate(scene);
     if (valid) return {};
     return fail(valid.error().code, fmt::format("{}: {}", path.string(), valid.error().message));
 }
 
-/// Settings beside the scene, if there are any, and what of them is ignored, one sentence each.
+/// Adds the settings beside the scene, if any, and a warning for each ignored one.
 Result<void> addSettings(std::filesystem::path path, LoadedScene& loaded) {
     path.replace_extension(".ini");
     std::error_code error;
@@ -52,8 +52,8 @@ Result<LoadedScene> loadScene(const std::filesystem::path& path, const ReadLimit
     if (const auto added = addSettings(path, *loaded); !added) return added.error();
     if (recentre(loaded->scene))
         loaded->warnings.push_back(fmt::format(
-            "{}: the scene lies far from the origin, where coordinates are too coarse for light; it is computed around "
-            "({:g}, {:g}, {:g}) m instead (Scene::origin)",
+            "{}: the scene is far from the origin, where coordinates are too coarse; its origin is moved to "
+            "({:g}, {:g}, {:g}) m (Scene::origin)",
             path.string(), loaded->scene.origin.x, loaded->scene.origin.y, loaded->scene.origin.z));
     if (loaded->scene.name.empty()) loaded->scene.name = path.stem().string();
     return loaded;

@@ -13,7 +13,7 @@
 
 namespace probegi::io {
 
-/// How the readers leave when a file cannot be used. Thrown and caught inside this layer only: guarded() is the seam.
+/// Thrown by readers if a file cannot be used, and caught within this layer by guarded().
 struct Refused {
     Error error;
 };
@@ -28,8 +28,8 @@ template <class... Args>
     throw Refused{Error{ErrorCode::malformed, fmt::format(format, std::forward<Args>(args)...)}};
 }
 
-/// Runs body() and turns everything it throws, libraries' exceptions included, into an Error that begins with `name`.
-/// What a library says of a file is for its own developers: where it can help a person, its caller words it.
+/// Runs body() and turns all exceptions, including libraries', into an Error that begins with `name`. Libraries'
+/// messages are for developers and dropped; callers reword the useful ones.
 template <class Body>
 auto guarded(std::string_view name, const Body& body) -> Result<std::invoke_result_t<Body>> {
     const auto sentence = [&](std::string_view what) { return fmt::format("{}: {}", name, what); };
@@ -43,7 +43,7 @@ auto guarded(std::string_view name, const Body& body) -> Result<std::invoke_resu
     } catch (const Refused& refused) {
         return fail(refused.error.code, sentence(refused.error.message));
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::outOfMemory, sentence("needs more memory than there is"));
+        return fail(ErrorCode::outOfMemory, sentence("needs more memory than is available"));
     } catch (const std::exception&) {
         return fail(ErrorCode::malformed, sentence("is damaged or of an unknown kind; save it again"));
     }

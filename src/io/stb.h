@@ -1,7 +1,7 @@
 #pragma once
 
-// stb with the same settings in every file that includes it. It reads Radiance .hdr only: the fuzzer makes its JPEG
-// reader write beyond its Huffman tables, and its PNG reader unpacks whatever a file holds before it looks at it.
+// stb with the same settings in every file that includes it. It reads Radiance .hdr only: fuzzing makes its JPEG reader
+// write beyond its Huffman tables, and its PNG reader unpacks everything in a file before checking it.
 #define STBI_ONLY_HDR
 #define STBI_NO_STDIO
 #define STBI_MAX_DIMENSIONS 65536

@@ -1,6 +1,6 @@
-// The types of kernels that answer several points abreast. In GLSL, and in plain C++, Real is float, Int is int and
-// select() is the conditional operator. src/cpu/lanes-inl.h includes the same headers a second time in another
-// namespace where they hold as many values as the processor's vectors. So these kernels have no branches on Real.
+// Types of kernels that process several points at once. In GLSL and plain C++, Real is float, Int is int and select()
+// is the conditional operator. src/cpu/lanes-inl.h includes the same headers again in another namespace, where they are
+// SIMD vectors. So these kernels must not branch on Real.
 #ifndef PROBEGI_KERNELS_LANES_H
 #define PROBEGI_KERNELS_LANES_H
 
@@ -29,7 +29,7 @@ KERNEL_FN int select(bool condition, int ifTrue, int ifFalse) {
     return condition ? ifTrue : ifFalse;
 }
 
-// Sign that is never 0 (GLSL's sign(0) is).
+// Sign, but never 0 (unlike GLSL's sign(0)).
 KERNEL_FN float signNotZero(float x) {
     return x < 0.0f ? -1.0f : 1.0f;
 }

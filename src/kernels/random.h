@@ -1,4 +1,4 @@
-// Counter-based random numbers: a pure function of what they are for, so that any order of evaluation and any number
+// Counter-based random numbers: a pure function of their purpose, so that any order of evaluation and any number
 // of threads gives the same values.
 #ifndef PROBEGI_KERNELS_RANDOM_H
 #define PROBEGI_KERNELS_RANDOM_H

@@ -23,8 +23,7 @@ KERNEL_FN vec3 toLocal(mat3 frame, vec3 world) {
     return vec3(dot(frame[0], world), dot(frame[1], world), dot(frame[2], world));
 }
 
-// Uniform on the unit disk, neighbours stay neighbours: Shirley and Chiu 1997, "A Low Distortion Map Between Disk and
-// Square".
+// Uniform on the unit disk, continuous: Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square".
 KERNEL_FN vec2 sampleDisk(vec2 u) {
     const float a = 2.0f * u.x - 1.0f;
     const float b = 2.0f * u.y - 1.0f;
@@ -53,14 +52,13 @@ KERNEL_FN vec3 sampleSphere(vec2 u) {
     return vec3(r * cos(phi), r * sin(phi), z);
 }
 
-// Weights of the second and third corner of a point that is uniform over a triangle: the unit square folded along its
-// diagonal.
+// A uniform point on a triangle, as weights of the second and third corner: the unit square folded along its diagonal.
 KERNEL_FN vec2 sampleTriangle(vec2 u) {
     return u.x + u.y > 1.0f ? vec2(1.0f - u.x, 1.0f - u.y) : u;
 }
 
 // Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation", section 9.2.4: the power heuristic with
-// exponent 2, one sample each. `pdf` is the density of the strategy that made the sample.
+// exponent 2, one sample each. `pdf` is the density of the strategy that generated the sample.
 KERNEL_FN float powerHeuristic(float pdf, float other) {
     if (!(pdf > 0.0f)) return 0.0f;
     const float ratio = other / pdf;

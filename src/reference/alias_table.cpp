@@ -14,7 +14,7 @@ AliasTable::AliasTable(std::span<const double> weights) {
         m_entries[i].alias = std::uint32_t(i);
         (share[i] < 1 ? poor : rich).push_back(std::uint32_t(i));
     }
-    // Every poor bin is filled up by a rich one. What is left over at the end is full but for rounding.
+    // Fill every poor bin from a rich one. Bins left over are full up to rounding.
     while (!poor.empty() && !rich.empty()) {
         const std::uint32_t taker = poor.back(), giver = rich.back();
         poor.pop_back();

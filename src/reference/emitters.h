@@ -16,10 +16,9 @@ struct EmitterSample {
     int material = -1;
 };
 
-/// The emissive triangles of a pose in world space, sampled by power. A triangle's power is taken as its area times the
-/// mean luminance of its *material*, so that the density of a point, per area, is a property of the material alone:
-/// whoever hits an emissive surface by chance can tell how likely sampling was to choose that point without knowing
-/// which triangle it was.
+/// The emissive triangles of a pose in world space, sampled by power. A triangle's power is its area times the mean
+/// luminance of its *material*, so that a point's density per area depends on the material alone: a BSDF ray that hits
+/// an emissive surface gets its sampling density without knowing the triangle.
 class Emitters {
 public:
     Emitters() = default;
@@ -27,13 +26,13 @@ public:
 
     bool empty() const noexcept { return m_table.empty(); }
     EmitterSample sample(Random& random) const noexcept;
-    /// Density per square metre of sampling a point of this material; 0 where it is never sampled.
+    /// Sampling density per square metre on this material; 0 if it is never sampled.
     float pdfArea(int material) const noexcept {
         return material < 0 || std::size_t(material) >= m_materials.size() ? 0.0f
                                                                            : m_materials[std::size_t(material)].pdfArea;
     }
-    /// Whether the material emits the same radiance everywhere: where it does not (textures, alpha), the sampled point
-    /// has to be looked up by a ray.
+    /// Whether the material emits the same radiance everywhere; otherwise (textures, alpha) a ray must look up the
+    /// sampled point.
     bool uniform(int material) const noexcept { return m_materials[std::size_t(material)].uniform; }
     bool doubleSided(int material) const noexcept { return m_materials[std::size_t(material)].doubleSided; }
     glm::vec3 emission(int material) const noexcept { return m_materials[std::size_t(material)].emission; }

@@ -10,7 +10,7 @@ namespace probegi {
 namespace {
 
 bool isFinite(const PathResult& p) {
-    // One sum finds any NaN or infinity; radiances near the largest float are no picture anyway.
+    // One sum detects any NaN or infinity; its own overflow is irrelevant, since no picture has such radiances.
     const glm::vec3 sum = p.sky + p.direct + p.indirect + p.irradiance + p.albedo + p.normal + glm::vec3(p.depth);
     return std::isfinite(sum.x + sum.y + sum.z);
 }

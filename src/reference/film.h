@@ -8,7 +8,7 @@
 
 namespace probegi {
 
-/// Averages paths into a picture. Different pixels may be added to by different threads at once.
+/// Averages paths into a picture. Threads may add to different pixels concurrently.
 class Film {
 public:
     Film(int width, int height);
@@ -17,9 +17,9 @@ public:
     void add(std::size_t pixel, const PathResult& path) noexcept;
     /// Mean standard error of the luminance over the mean luminance; infinite before the second sample.
     double relativeError() const noexcept;
-    /// Paths that were not finite; they count as black. More than a handful would be a defect.
+    /// Non-finite paths; they count as black. More than a handful would be a bug.
     std::int64_t rejectedCount() const noexcept;
-    /// Moves nothing out: the film can go on. Seconds and samplesPerPixel are left to the caller.
+    /// Copies the picture; the film can continue. Seconds and samplesPerPixel are set by the caller.
     ReferencePicture develop() const;
 
 private:

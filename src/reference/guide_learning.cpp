@@ -13,14 +13,14 @@ namespace probegi {
 
 namespace {
 
-/// Size of the voxels that lights are gathered in: a share of the probe spacing, and at least a share of the distance
+/// Size of the voxels in which lights are clustered: a share of the probe spacing, and at least a share of the distance
 /// from which they are seen.
 constexpr float kVoxelShare = 0.25f, kVoxelAngle = 0.1f;
-/// Boxes reach a little beyond the lights that were met, and are never flat, as shares of the voxel.
+/// Margin of boxes around the lights found, and their minimum thickness, as shares of the voxel.
 constexpr float kMargin = 0.08f, kThickness = 0.01f;
-/// Boxes that send less than this share of a region's light belong to its background.
+/// Boxes that contribute less than this share of a region's light count as background.
 constexpr float kMinContribution = 0.004f;
-/// A region whose variance is not at least so much less with its boxes goes without.
+/// A region keeps its boxes only if they reduce the variance below this share.
 constexpr float kWorthwhile = 0.75f;
 
 struct Box {
@@ -28,7 +28,7 @@ struct Box {
     float voxel = 0;
 };
 
-/// The boxes around all lights, and of each light which.
+/// The boxes around all lights, and each light's box.
 struct Boxes {
     std::vector<Box> boxes;
     std::vector<std::uint32_t> ofLight;
@@ -58,7 +58,7 @@ Boxes gather(const GuideLessons& lessons, float spacing) {
     for (Box& box : out.boxes) {
         const glm::vec3 size = box.upper - box.lower;
         for (int axis = 0; axis < 3; ++axis) {
-            // Across a surface nothing is beyond the lights; along it the next one may be.
+            // Small margin across a surface, where no further lights lie; larger along it, where they may.
             const float margin = box.voxel * (size[axis] < kThickness * box.voxel ? 0.5f * kThickness : kMargin);
             box.lower[axis] -= margin;
             box.upper[axis] += margin;
@@ -75,7 +75,7 @@ void setLane(PathGuide::Block& block, int lane, const Box& box, float strength) 
     block.strength[lane] = strength;
 }
 
-/// One region's receivers begin..end, and their lights.
+/// A region's receivers begin..end, and their lights.
 struct Class {
     std::size_t begin, end, firstLight, lastLight;
 };
@@ -85,8 +85,8 @@ struct RegionBoxes {
     float background = 0;
 };
 
-/// The boxes that send a region the most light. A box is as strong as makes the light that it seems to send to the
-/// receivers what it did send, whatever hides part of it.
+/// The boxes that contribute most light to a region. A box's strength is scaled such that its predicted light at the
+/// receivers matches what they received, partial occlusion included.
 RegionBoxes strongest(const GuideLessons& lessons, const Boxes& boxes, const Class& in) {
     std::unordered_map<std::uint32_t, std::size_t> known;
     std::vector<std::pair<float, std::uint32_t>> sent;
@@ -132,10 +132,10 @@ RegionBoxes strongest(const GuideLessons& lessons, const Boxes& boxes, const Cla
     return out;
 }
 
-/// What one sample of the light that arrives in a region is like, by the lights that were met.
+/// Moments of one sample of a region's incoming light, estimated from the lights found.
 struct Moments {
     float mean = 0;
-    float plain = 0, guided = 0;  ///< of second order, without and with the region's boxes
+    float plain = 0, guided = 0;  ///< second moments, without and with the region's boxes
 
     /// Variance with the boxes over that without.
     float share() const {
@@ -185,8 +185,8 @@ std::vector<Class> classes(const GuideLessons& lessons) {
     return out;
 }
 
-/// Where nobody looked around the field's mean stands for the light that arrives, with the scatter of the regions where
-/// somebody did; where no path came by, the mean of all.
+/// Regions without lessons use the field's mean as incoming light, with the scatter of the regions that have some;
+/// regions that no path reached use the mean of all.
 void expectLevels(const GuideLessons& lessons, std::span<const Moments> found, PathGuide& guide) {
     double means = 0, roots = 0;
     for (const Moments& m : found) {

@@ -13,14 +13,14 @@ namespace probegi {
 
 namespace {
 
-/// Reflections after the first surface whose receivers are learned from as well.
+/// Number of reflections after the first surface that also yield receivers.
 constexpr int kGenerations = 2;
 constexpr std::size_t kReceiversPerRegion = 16;
-/// Regions met less often are left alone: what they would gain is not worth the rays.
+/// Regions visited less often are skipped: the gain would not be worth the rays.
 constexpr std::size_t kMinVisits = 2;
-/// About so many receivers in all; the regions that most paths meet come first.
+/// Approximate total number of receivers; the regions with most visits come first.
 constexpr std::size_t kMaxReceivers = 8192;
-/// Receivers whose rays are in memory at once, and in one task.
+/// Receivers whose rays are in memory at once, and receivers per task.
 constexpr std::size_t kBlock = 256, kGrain = 8;
 constexpr int kSide = GuideLessons::kRaysPerSide, kRays = GuideLessons::kRaysPerReceiver;
 
@@ -43,7 +43,7 @@ Result<std::vector<GuideReceiver>> nextGeneration(const Transport& transport, st
     return receiversSeen(transport, rays);
 }
 
-/// At most kReceiversPerRegion of each region that is met often enough, ordered by region.
+/// At most kReceiversPerRegion for each region with enough visits, ordered by region.
 std::vector<GuideReceiver> choose(std::vector<GuideReceiver> all) {
     std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.region < b.region; });
     struct Range {
@@ -66,13 +66,13 @@ std::vector<GuideReceiver> choose(std::vector<GuideReceiver> all) {
     chosen.reserve(total);
     for (const Range& range : ranges) {
         const std::size_t count = range.end - range.begin, wanted = std::min(count, kReceiversPerRegion);
-        // Evenly over the visits, which are in the order of generations.
+        // Evenly spaced over the visits, which are ordered by generation.
         for (std::size_t i = 0; i < wanted; ++i) chosen.push_back(all[range.begin + i * count / wanted]);
     }
     return chosen;
 }
 
-/// What the rays of one block of receivers found.
+/// Results of the rays of one block of receivers.
 struct Views {
     std::vector<Ray> rays;
     std::vector<Hit> hits;
@@ -85,7 +85,7 @@ struct Views {
         : rays(count), hits(count), surfaces(count), punctual(count), queries(count), irradiance(count) {}
 };
 
-/// Luminance of what a matt surface of this albedo sends back of E.
+/// Luminance of E reflected by a Lambert surface of this albedo.
 float reflected(const Surface& surface, glm::vec3 irradiance) {
     const float radiance = kernels::luminance(surface.albedo * irradiance) / kernels::kPi;
     return std::isfinite(radiance) ? std::max(radiance, 0.0f) : 0.0f;
@@ -115,7 +115,7 @@ Result<void> addPunctual(const Transport& transport, std::size_t begin, std::siz
     return {};
 }
 
-/// Traces the rays of `receivers`, which are numbered from `first`, and lights what they hit but for the field's share.
+/// Traces the rays of `receivers`, numbered from `first`, and shades their hits, except for the field's share.
 Result<void> look(const Context& context, const Transport& transport, std::span<const GuideReceiver> receivers,
                   std::size_t first, std::uint64_t seed, Views& views) {
     return tryParallelFor(context, receivers.size(), kGrain, [&](std::size_t from, std::size_t to) -> Result<void> {
@@ -143,8 +143,8 @@ Result<void> look(const Context& context, const Transport& transport, std::span<
     });
 }
 
-/// Rays that saw the sky have no distance, yet the window through which they saw it has one: that of the nearest
-/// surface that their neighbours hit. From `farthest` where no ray hit anything.
+/// Rays that see the sky get the distance of the window that they pass through: the smallest among their neighbours'
+/// hits, or `farthest` if no ray hit anything.
 void fillDistances(float* distances, float farthest) {
     bool missing = true;
     for (int round = 0; round < kSide && missing; ++round) {
@@ -167,7 +167,7 @@ void fillDistances(float* distances, float farthest) {
         if (distances[i] == 0) distances[i] = farthest;
 }
 
-/// Sorts what receiver `index` saw into lights and background.
+/// Splits what receiver `index` saw into lights and background.
 void learn(const Transport& transport, const Views& views, std::size_t offset, std::uint32_t index, float farthest,
            GuideLessons& out, std::vector<GuideLight>& lights) {
     float distances[kRays];
@@ -201,7 +201,7 @@ void learn(const Transport& transport, const Views& views, std::size_t offset, s
     out.backgroundSquares[index] = squares;
 }
 
-/// What the field says of the regions of all these receivers.
+/// The field's level for the regions of all these receivers.
 Result<std::vector<float>> levelsOf(const Field& field, std::size_t regions, std::span<const GuideReceiver> all) {
     std::vector<FieldQuery> queries;
     queries.reserve(all.size());

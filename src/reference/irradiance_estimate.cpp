@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kPathsPerChunk = 1024;
 
-/// What one chunk found out about one point.
+/// One chunk's result for one point.
 struct Part {
     std::size_t point = 0;
     RunningStats stats;
@@ -63,7 +63,7 @@ Result<std::vector<ReferenceIrradiance>> estimateIrradiance(const Context& conte
     if (auto traced = tryParallelFor(context, total, kPathsPerChunk, trace); !traced) return traced.error();
     if (progress.cancelled()) return fail(ErrorCode::cancelled, "The reference irradiance was cancelled.");
 
-    // Merged in the order of the paths, whatever thread traced them.
+    // Merged in path order, independent of threads.
     std::vector<RunningStats> stats(points.size());
     for (const auto& parts : chunks)
         for (const Part& part : parts) stats[part.point].merge(part.stats);

@@ -8,7 +8,7 @@
 
 namespace probegi {
 
-/// PathTracer::irradiance with all switches of the transport. Errors: cancelled, and those of the
+/// PathTracer::irradiance with all settings of the transport. Errors: cancelled, and those of the
 /// tracer.
 Result<std::vector<ReferenceIrradiance>> estimateIrradiance(const Context& context, const Transport& transport,
                                                             const PathSettings& settings,

@@ -1,4 +1,4 @@
-// Next-event estimation: the half of PathBatch that looks for lights.
+// Next-event estimation: the half of PathBatch that samples lights.
 #include <algorithm>
 #include <glm/geometric.hpp>
 
@@ -29,7 +29,7 @@ void PathBatch::samplePunctualLights(Path& path, const Vertex& vertex) {
         for (const PlacedLight& light : lights) queuePunctual(path, vertex, sampleLight(light, vertex.position), 1.0f);
         return;
     }
-    // One of many, chosen by what each would contribute without shadows: two passes instead of a list.
+    // Choose one of many by its unshadowed contribution: two passes instead of a list.
     const auto contribution = [&](const PlacedLight& light) {
         const kernels::LightSample s = sampleLight(light, vertex.position);
         const float cosine = glm::dot(vertex.frame[2], s.toLight);
@@ -56,7 +56,7 @@ void PathBatch::queuePunctual(const Path& path, const Vertex& vertex, const kern
     const bool first = path.reflections == 0;
     Pending pending{.result = path.result, .layer = first ? Layer::direct : Layer::indirect};
     pending.color = r.color * light.irradianceAtNormal * weight;
-    // On the first surface, punctual light is no part of the E that a field would answer.
+    // On the first surface, punctual light is not part of a field's E.
     if (!first) pending.irradiance = r.irradiance * light.irradianceAtNormal * weight;
     if (!anyPositive(pending.color) && !anyPositive(pending.irradiance)) return;
     m_shadows.push_back(pending);
@@ -94,7 +94,7 @@ void PathBatch::sampleEmitters(Path& path, const Vertex& vertex) {
     pending.color *= emission;
     pending.irradiance *= emission;
     m_shadows.push_back(pending);
-    // The ray ends above the emitter's own surface, as far as one that left it would begin.
+    // The ray ends above the emitter's surface, by the offset at which a ray leaving it would start.
     const float end = distance - kernels::rayOffset(sample.position, m_transport.magnitude) / std::abs(facing);
     m_shadowRays.push_back({origin, 0.0f, direction, std::max(end, 0.5f * distance)});
 }
@@ -128,8 +128,8 @@ Result<void> PathBatch::resolveShadows() {
     return {};
 }
 
-/// Emitters whose radiance varies (textures, alpha): the ray itself finds out what the sampled point sends, and whether
-/// it is seen at all.
+/// Emitters with varying radiance (textures, alpha): the ray itself looks up the sampled point's radiance and
+/// visibility.
 Result<void> PathBatch::resolveLookUps() {
     if (m_lookUps.empty()) return {};
     std::vector<Hit> hits(m_lookUps.size());

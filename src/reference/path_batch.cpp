@@ -19,8 +19,8 @@ float maxComponent(glm::vec3 v) {
 PathBatch::PathBatch(const Transport& transport, const PathSettings& settings)
     : m_transport(transport), m_settings(settings) {
     if (settings.strategy == Strategy::bsdfOnly) return;
-    // A constant sky is sampled as the cosine lobe is: behind the first vertex that is not worth a ray of its own where
-    // a guide knows the windows.
+    // A constant sky is sampled like the cosine lobe: beyond the first vertex that is not worth a separate ray if a
+    // guide knows the windows.
     if (!transport.sky.black()) m_skySamples = settings.guide && transport.sky.constant() ? 1 : kMaxReflections + 1;
 }
 
@@ -80,7 +80,7 @@ Result<void> PathBatch::run() {
     return {};
 }
 
-/// Finds out what light got through to the vertices, and goes on with the rays that left them.
+/// Resolves which light reaches the vertices, and continues with the rays that left them.
 Result<void> PathBatch::advance() {
     if (auto resolved = resolveShadows(); !resolved) return resolved;
     if (auto resolved = resolveLookUps(); !resolved) return resolved;
@@ -95,7 +95,7 @@ Result<void> PathBatch::advance() {
     return {};
 }
 
-/// Adds what the hit (or miss) of path i gives and turns the path around.
+/// Adds the contribution of path i's hit or miss, and scatters the path.
 void PathBatch::shadeHit(std::size_t i) {
     Path& path = m_paths[i];
     const Ray& ray = m_rays[i];

@@ -10,19 +10,18 @@
 
 namespace probegi {
 
-/// Traces many independent paths abreast, one bounce of all of them at a time: the tracer's virtual calls see long
-/// batches. One thread uses a PathBatch; results depend only on the paths' random streams.
+/// Traces many independent paths in lockstep, one bounce at a time, so that the tracer's virtual calls get long
+/// batches. Single-threaded; results depend only on the paths' random streams.
 ///
-/// Unbiased but for two ends: a throughput beyond the first three reflections faces Russian roulette with at most
-/// kMaxSurvival, so that closed rooms of albedo 1 end as well (a guide's begins with the first reflection); and
-/// kMaxReflections stops what the roulette missed, which a path survives to with a probability below 0.99^4093 = 1e-17:
-/// in no picture ever.
+/// Unbiased with Russian roulette: after the first three reflections (with a guide, from the first) survival is at most
+/// kMaxSurvival, so that paths in closed rooms of albedo 1 end as well. The cut-off at kMaxReflections is reached with
+/// a probability below 0.99^4093 = 1e-17: never in practice.
 class PathBatch {
 public:
     static constexpr int kRouletteStart = 3;
     static constexpr float kMaxSurvival = 0.99f;
     static constexpr int kMaxReflections = 4096;
-    /// Up to so many punctual lights get a shadow ray each; of more, one is chosen by what it would contribute.
+    /// Up to this many punctual lights get a shadow ray each; of more, one is chosen by its unshadowed contribution.
     static constexpr std::size_t kFewLights = 8;
 
     PathBatch(const Transport& transport, const PathSettings& settings);
@@ -43,15 +42,15 @@ private:
         glm::vec3 firstColor{0.0f};    ///< BSDF x cosine / density at the first vertex
         float firstIrradiance = 0.0f;  ///< cosine / density at the first vertex
         float pdf = 0.0f;              ///< density with which the current ray's direction was sampled
-        float pdfSky = 0.0f;           ///< density with which light sampling would have chosen it, if sky is seen there
-        float levelColor = 0.0f;       ///< radiance that the first vertex was likely to send from ahead of it
-        float levelIrradiance = 0.0f;  ///< and the irradiance behind it
-        bool judged = false;           ///< by these levels, in survivalOf()
+        float pdfSky = 0.0f;           ///< density of light sampling for it, if it sees the sky
+        float levelColor = 0.0f;       ///< expected radiance of the first vertex from the path ahead
+        float levelIrradiance = 0.0f;  ///< the corresponding irradiance
+        bool judged = false;           ///< whether survivalOf() uses these levels
         std::uint32_t result = 0;
         int reflections = 0;
     };
 
-    /// Where a path meets a surface.
+    /// A path's hit on a surface.
     struct Vertex {
         glm::vec3 position;
         glm::vec3 geometricNormal;
@@ -65,7 +64,7 @@ private:
 
     enum class Layer : std::uint8_t { direct, indirect };
 
-    /// Light that arrives if a ray gets through.
+    /// Light that arrives if its ray is unoccluded.
     struct Pending {
         std::uint32_t result = 0;
         Layer layer = Layer::indirect;
@@ -75,7 +74,7 @@ private:
         glm::vec3 irradiance{0.0f};
     };
 
-    /// What unit radiance from a direction adds to the layers of a path.
+    /// Contribution of unit radiance from a direction to a path's layers.
     struct Response {
         glm::vec3 color{0.0f};
         glm::vec3 irradiance{0.0f};
@@ -113,13 +112,13 @@ private:
     PathSettings m_settings;
     std::span<PathResult> m_results;
     bool m_fromPoints = false;
-    int m_skySamples = 0;  ///< vertices of a path, from the first on, that sample the sky
+    int m_skySamples = 0;  ///< number of vertices of a path, from the first, that sample the sky
 
     std::vector<Path> m_paths;  ///< alive; parallel with the next three
     std::vector<Ray> m_rays;
     std::vector<Hit> m_hits;
     std::vector<Surface> m_surfaces;
-    std::vector<Path> m_nextPaths;  ///< that left the vertices
+    std::vector<Path> m_nextPaths;  ///< continuing from the vertices
     std::vector<Ray> m_nextRays;
     std::vector<Pending> m_shadows;
     std::vector<Ray> m_shadowRays;

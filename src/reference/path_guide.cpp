@@ -10,7 +10,7 @@ namespace probegi {
 namespace {
 
 constexpr float kPi = 3.14159265f;
-/// A guide that would take less of the samples is not worth its evaluation.
+/// Below this share of the samples, a guide is not worth its evaluation.
 constexpr float kMinShare = 0.05f;
 
 int facingOf(glm::vec3 n) {
@@ -55,12 +55,12 @@ void PathGuide::seenShares(const Block& block, glm::vec3 p, glm::vec3 n, float* 
         const float cy = block.lower[1][i] + hy - p.y;
         const float cz = block.lower[2][i] + hz - p.z;
         const float inverse = 1.0f / std::sqrt(cx * cx + cy * cy + cz * cz + hx * hx + hy * hy + hz * hz + 1e-12f);
-        // The outline of a box seen from afar; the quarters keep something of it where the point is inside.
+        // Silhouette of a distant box; the quarters keep it positive if the point is inside.
         const float outline = 4.0f * inverse *
                               ((std::abs(cx) + 0.25f * hx) * hy * hz + (std::abs(cy) + 0.25f * hy) * hx * hz +
                                (std::abs(cz) + 0.25f * hz) * hx * hy);
         const float solid = std::min(outline * inverse * inverse, 2.0f * kPi);
-        // Mean height above the horizon, as if heights were uniform between the lowest and the highest.
+        // Mean height above the horizon, assuming heights uniform between the lowest and the highest.
         const float height = n.x * cx + n.y * cy + n.z * cz;
         const float extent = a.x * hx + a.y * hy + a.z * hz + 1e-12f;
         const float top = std::max(height + extent, 0.0f);

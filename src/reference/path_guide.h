@@ -9,40 +9,39 @@
 
 namespace probegi {
 
-/// Where light comes from, learned once: for each region of space the boxes around the places that send it much light,
-/// sunlit floor or sky behind a window. Boxes stay where they are when the receiver moves, so that one list serves a
-/// whole region without parallax. A direction is sampled through a point that is uniform in a box; its density is
-/// known in closed form, (t1^3 - t0^3) / (3 V) for a ray inside the box from t0 to t1.
+/// Learned directions of incoming light: for each region of space, boxes around the places that send it much light,
+/// such as sunlit floor or sky behind a window. Boxes are fixed in space, so one list serves a whole region without
+/// parallax. A direction is sampled through a uniform point in a box; its density is
+/// in closed form (t1^3 - t0^3) / (3 V) for a ray inside the box from t0 to t1.
 class PathGuide {
 public:
-    static constexpr int kLanes = 8;  ///< boxes that are looked at abreast
+    static constexpr int kLanes = 8;  ///< boxes evaluated at once
     static constexpr int kMaxBlocks = 8;
-    static constexpr int kMaxBoxes = kLanes * kMaxBlocks;  ///< of one region
-    static constexpr int kFacings = 6;                     ///< regions apart by the axis that a receiver faces
+    static constexpr int kMaxBoxes = kLanes * kMaxBlocks;  ///< per region
+    static constexpr int kFacings = 6;                     ///< regions by the axis that a receiver faces
     static constexpr int kCellsPerSpacing = 1;
-    /// The rest stays with the BSDF, so that no light that the guide knows nothing of is rarer than 1 / 5 of what it
-    /// would be without.
+    /// The rest is sampled from the BSDF, so light unknown to the guide keeps at least 1 / 5 of its density.
     static constexpr float kMaxShare = 0.8f;
 
-    /// Boxes of no strength fill up the last block of a region; they are never chosen.
+    /// Boxes of zero strength pad the last block of a region; they are never chosen.
     struct alignas(32) Block {
         float lower[3][kLanes];
         float upper[3][kLanes];
-        float strength[kLanes];  ///< radiance times the share of the box that is bright and seen
+        float strength[kLanes];  ///< radiance times the share of the box that is bright and visible
     };
 
     struct Region {
         std::uint32_t firstBlock = 0;
         std::uint32_t blocks = 0;
         float background = 0;  ///< mean radiance, cosine-weighted, from outside the boxes
-        float expected = 0;    ///< root mean square of the arriving radiance, as sampled; 0: nothing, or unknown
+        float expected = 0;    ///< root mean square of the incoming radiance, as sampled; 0: none or unknown
     };
 
-    /// What the guide says at one point: the boxes, each as bright as it looks from there.
+    /// The guide at one point: the boxes, weighted by their apparent brightness from there.
     struct Mixture {
         const Block* blocks = nullptr;
         int count = 0;    ///< of blocks
-        float share = 0;  ///< of the samples that should follow the boxes, 0..kMaxShare
+        float share = 0;  ///< of samples to draw from the boxes, 0..kMaxShare
         float total = 0;  ///< of the weights
         float weights[kMaxBoxes];
     };
@@ -54,20 +53,20 @@ public:
     std::size_t regionOf(glm::vec3 position, glm::vec3 normal) const noexcept;
     std::size_t regionCount() const noexcept { return m_regions.size(); }
     const Region& region(std::size_t index) const noexcept { return m_regions[index]; }
-    /// At most kMaxBlocks blocks; an earlier list of the region is forgotten.
+    /// At most kMaxBlocks blocks; replaces an earlier list of the region.
     void setRegion(std::size_t index, std::vector<Block> blocks, float background);
     void clearRegion(std::size_t index) noexcept { m_regions[index].blocks = 0; }
-    /// What is not positive and finite is unknown.
+    /// Values that are not positive and finite mean unknown.
     void setExpected(std::size_t index, float expected) noexcept {
         m_regions[index].expected = expected > 0 && expected < 1e30f ? expected : 0.0f;
     }
-    /// Whether no region has a box: there is nothing to follow anywhere.
+    /// Whether no region has a box.
     bool empty() const noexcept;
 
     const Region& regionAt(glm::vec3 position, glm::vec3 normal) const noexcept {
         return m_regions[regionOf(position, normal)];
     }
-    /// share == 0: nothing to follow here. The guide must outlive the mixture.
+    /// share == 0: no guiding here. The guide must outlive the mixture.
     void mixtureAt(const Region& region, glm::vec3 position, glm::vec3 normal, Mixture& out) const noexcept;
     void mixtureAt(glm::vec3 position, glm::vec3 normal, Mixture& out) const noexcept {
         mixtureAt(regionAt(position, normal), position, normal, out);
@@ -78,7 +77,7 @@ public:
     /// Density of sample() per steradian.
     static float pdf(const Mixture& mixture, glm::vec3 position, glm::vec3 direction) noexcept;
 
-    /// Cosine-weighted share of the hemisphere that each box of the block takes, 0..1, approximately.
+    /// Approximate cosine-weighted share of the hemisphere that each box of the block covers, 0..1.
     static void seenShares(const Block& block, glm::vec3 position, glm::vec3 normal, float* out) noexcept;
 
 private:

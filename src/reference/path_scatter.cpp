@@ -1,4 +1,4 @@
-// How a path goes on from its vertex: the half of PathBatch that chooses directions.
+// Continuation of a path from its vertex: the half of PathBatch that samples directions.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -15,18 +15,18 @@ float maxComponent(glm::vec3 v) {
     return std::max({v.x, v.y, v.z});
 }
 
-/// Survival of a path whose light ahead is likely to be as much as its first vertex was to find. By the theory of
-/// efficiency the best is about the root of variance over cost; from 1 to 2 the product hardly changes.
+/// Survival probability of a path whose expected light ahead equals that at its first vertex. In theory, the most
+/// efficient is about the root of variance over cost; between 1 and 2 efficiency hardly changes.
 constexpr float kSurvivalPerWorth = 1.5f;
-/// A guide that is wrong makes no path heavier than one over this, times what its own directions made of it.
+/// Limits the weight that a wrong guide can give a path to one over this, times that from its own directions.
 constexpr float kMinSurvival = 0.1f;
-/// The darkest first surface, whose light is still compared with what lies ahead.
+/// Minimum reflectance of the first surface when its light is compared with that ahead.
 constexpr float kMinReflectance = 0.04f;
 
 }  // namespace
 
 PathBatch::Vertex PathBatch::makeVertex(const Ray& ray, const Surface& surface, bool first) const {
-    // A shading normal that faces away from the viewer would show the inside of the material.
+    // With a shading normal facing away from the viewer, the inside of the material would be shaded.
     const bool usable = glm::dot(surface.shadingNormal, ray.direction) < -1e-4f;
     Vertex v;
     v.position = surface.position;
@@ -35,12 +35,12 @@ PathBatch::Vertex PathBatch::makeVertex(const Ray& ray, const Surface& surface, 
     v.bsdf = kernels::makeBsdf(surface.albedo, surface.metallic, surface.roughness, m_settings.diffuseOnly);
     v.toPrevious = kernels::toLocal(v.frame, -ray.direction);
     v.toPrevious.z = std::max(v.toPrevious.z, 1e-4f);
-    // The irradiance of the first surface needs the whole hemisphere, however mirror-like the material is.
+    // The first surface's irradiance needs the whole hemisphere, however mirror-like the material.
     if (first) v.bsdf.minDiffuse = std::max(v.bsdf.minDiffuse, 0.25f);
     return v;
 }
 
-/// The guide takes its share from the cosine lobe only: a coat knows better where it looks.
+/// The guide replaces only the cosine lobe; the specular lobe samples its directions better itself.
 void PathBatch::follow(const PathGuide& guide, Vertex& vertex) const {
     guide.mixtureAt(*vertex.region, vertex.position, vertex.frame[2], vertex.mixture);
     if (vertex.mixture.share > 0)
@@ -63,14 +63,14 @@ PathBatch::Response PathBatch::response(const Path& path, const Vertex& vertex, 
     return {path.firstColor * arriving, path.firstIrradiance * arriving};
 }
 
-/// About the share of the arriving light that a vertex sends back.
+/// Approximate reflectance of a vertex.
 float PathBatch::reflectance(const Vertex& vertex) {
     return kernels::luminance(vertex.bsdf.diffuse) +
            (vertex.bsdf.specular > 0 ? kernels::luminance(vertex.bsdf.f0) : 0.0f);
 }
 
-/// Lights the vertex, then turns the path around. A guide says what lies ahead; where that is little, the path is
-/// likely to end here, before it costs anything.
+/// Lights the vertex, then scatters the path. If the guide predicts little light ahead, the path is likely to end here,
+/// before further cost.
 void PathBatch::turn(Path& path, Vertex& vertex) {
     float survival = 1;
     if (m_settings.guide) {
@@ -89,16 +89,16 @@ void PathBatch::turn(Path& path, Vertex& vertex) {
     scatter(path, vertex);
 }
 
-/// What the guide expects to arrive at the first vertex is the level by which survivalOf() judges the path later.
+/// The light that the guide predicts at the first vertex is survivalOf()'s reference level later.
 void PathBatch::expect(Path& path, const Vertex& vertex) const {
     path.judged = vertex.region->expected > 0;
     path.levelIrradiance = vertex.region->expected * kernels::kPi;
     path.levelColor = vertex.region->expected * std::max(reflectance(vertex), kMinReflectance);
 }
 
-/// Adjoint-driven Russian roulette (Vorba and Krivanek 2016): what is likely to lie ahead of this vertex, over what was
-/// to be found from the first one. Both are root mean squares rather than means, which weighs rare bright light as what
-/// it is, noise (Rath et al. 2022).
+/// Adjoint-driven Russian roulette (Vorba and Krivanek 2016): expected light ahead of this vertex over that at the
+/// first one. Both are root mean squares rather than means, which accounts for rare bright light as noise (Rath et al.
+/// 2022).
 float PathBatch::survivalOf(const Path& path, const Vertex& vertex) const {
     const float throughput = kernels::luminance(path.throughput);
     const float ahead = throughput * reflectance(vertex) * vertex.region->expected;

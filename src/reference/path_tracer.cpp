@@ -27,15 +27,16 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kPathsPerBatch = 1024;
-/// Samples a pixel between two looks at the stopping rules.
+/// Maximum samples per pixel between checks of the stopping rules.
 constexpr int kMaxSamplesPerPass = 16;
-/// Camera rays that say where a guide is wanted; and what keeps their random numbers apart from the picture's.
+/// Number of camera rays that determine where to learn a guide, and a salt that separates their random numbers from the
+/// picture's.
 constexpr std::size_t kGuideRays = 16384;
 constexpr std::uint64_t kGuideSeed = 0x67756964696e67ull;
-/// Fewer samples say too little about their own error to stop by it.
+/// With fewer samples, the error estimate is too unreliable to stop by.
 constexpr int kMinSamplesForError = 16;
 
-/// When to stop, and how far there is to go.
+/// When to stop, and the progress towards it.
 class StoppingRules {
 public:
     explicit StoppingRules(const ReferenceDesc& desc) : m_desc(desc), m_start(Clock::now()) {}
@@ -47,12 +48,12 @@ public:
         if (m_desc.seconds > 0 && seconds() >= m_desc.seconds) return true;
         if (m_desc.relativeError <= 0 || samples < kMinSamplesForError) return false;
         const double error = film.relativeError();
-        // The error falls like one over the root of the work.
+        // The error falls with the square root of the work.
         m_errorShare = error > 0 ? std::pow(m_desc.relativeError / error, 2) : 1;
         return error <= m_desc.relativeError;
     }
 
-    /// Passes grow while they are cheap; the last ones of a time limit shrink so as not to overrun it.
+    /// Passes grow while they are cheap; near a time limit they shrink so as not to overrun it.
     int nextPass(int samples) const {
         int pass = std::clamp(samples, 1, kMaxSamplesPerPass);
         if (m_desc.samplesPerPixel > 0) pass = std::min(pass, m_desc.samplesPerPixel - samples);
@@ -63,7 +64,7 @@ public:
         return pass;
     }
 
-    /// Share of the way to whichever limit is nearest. `samples` may be fractional, in the middle of a pass.
+    /// Progress towards the nearest limit. `samples` may be fractional, during a pass.
     double fraction(double samples) const {
         double share = m_errorShare;
         if (m_desc.samplesPerPixel > 0) share = std::max(share, samples / m_desc.samplesPerPixel);
@@ -95,7 +96,7 @@ Result<void> tracePixels(const Transport& transport, const ReferenceDesc& desc, 
     return {};
 }
 
-/// Learns from what the camera sees, on rays of their own through random pixels.
+/// Learns from what the camera sees, on separate rays through random pixels.
 Result<PathGuide> learnFromCamera(const Context& context, const Transport& transport, const ReferenceDesc& desc,
                                   const PinholeCamera& camera) {
     const std::size_t pixels = std::size_t(desc.picture.width) * std::size_t(desc.picture.height);
@@ -110,7 +111,7 @@ Result<PathGuide> learnFromCamera(const Context& context, const Transport& trans
     });
 }
 
-/// Learns from the points, each as often as it takes to have as many beginnings as a picture has.
+/// Learns from the points, each repeated to get as many starting points as for a picture.
 Result<PathGuide> learnFromPoints(const Context& context, const Transport& transport,
                                   std::span<const FieldQuery> points, const Field& field, std::uint64_t seed) {
     std::vector<GuideReceiver> first;
@@ -216,7 +217,7 @@ Result<std::vector<ReferenceIrradiance>> PathTracer::irradiance(std::span<const 
                                 .guide = learned && !learned->empty() ? &*learned : nullptr};
     return estimateIrradiance(m_impl->context, m_impl->transport, settings, points, samples, seed);
 } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::outOfMemory, "There is not enough memory for the reference irradiance; ask in parts.");
+    return fail(ErrorCode::outOfMemory, "There is not enough memory for the reference irradiance; split the request.");
 }
 
 }  // namespace probegi

@@ -6,8 +6,8 @@
 namespace probegi {
 
 /// SplitMix64 (Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number Generators"). One stream per path,
-/// started from what the path is for, so that neither threads nor the order of work change a picture. 64 bits, since a
-/// picture has 10^8 paths: streams of kernels/random.h (32 bits) would meet.
+/// seeded by the path's purpose, so that neither threads nor the order of work change a picture. 64 bits, since a
+/// picture has 10^8 paths: streams of kernels/random.h (32 bits) would overlap.
 class Random {
 public:
     Random(std::uint64_t seed, std::uint64_t path) : m_state(mix(mix(seed) + path)) {}

@@ -30,7 +30,7 @@ struct RunningStats {
         count += other.count;
     }
 
-    /// Of the mean. One sample says nothing about its error: the value itself stands in.
+    /// Of the mean. For a single sample, its value is used.
     glm::dvec3 standardError() const noexcept {
         if (count < 2) return glm::abs(mean);
         return glm::sqrt(squares / (double(count) * double(count - 1)));

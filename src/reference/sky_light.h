@@ -8,15 +8,15 @@
 
 namespace probegi {
 
-/// The sky as a light that can be sampled. A constant sky is sampled by the cosine around the receiver's normal; an
-/// image by the mean luminance of its texels times their solid angle.
+/// The sky as a sampled light: a constant sky by the cosine around the receiver's normal, an image by the mean
+/// luminance of its texels times their solid angle.
 class SkyLight {
 public:
     SkyLight() = default;
     explicit SkyLight(const Sky& sky);
 
     bool black() const noexcept { return m_black; }
-    /// The same from everywhere.
+    /// The same radiance in all directions.
     bool constant() const noexcept { return m_table.empty(); }
     glm::vec3 radiance(glm::vec3 direction) const noexcept;
     /// A unit direction towards the sky for a receiver with this shading normal. The sky must not be black.

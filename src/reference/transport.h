@@ -9,7 +9,7 @@
 
 namespace probegi {
 
-/// What light meets on its way: everything a path needs, made once for a pose.
+/// Everything that a path needs, made once for a pose.
 struct Transport {
     const Tracer* tracer = nullptr;
     std::vector<PlacedLight> lights;
@@ -18,18 +18,18 @@ struct Transport {
     float magnitude = 0;  ///< sceneMagnitude(tracer->bounds())
 };
 
-/// How light that both a light sample and a BSDF sample can find is estimated. All three have the same expectation
-/// (without mirrors); the tests hold them against each other.
+/// How to estimate light that both light sampling and BSDF sampling can find. All three have the same expectation
+/// (without mirrors); tests compare them.
 enum class Strategy : std::uint8_t { both, bsdfOnly, lightsOnly };
 
 struct PathSettings {
     bool diffuseOnly = false;
     int maxBounces = 0;  ///< reflections between a light and the camera; 0: unlimited
     Strategy strategy = Strategy::both;
-    const PathGuide* guide = nullptr;  ///< where light comes from; null: paths follow the BSDF alone
+    const PathGuide* guide = nullptr;  ///< directions of light; null: paths sample the BSDF alone
 };
 
-/// What one path brings home, split as in Picture.
+/// One path's result, split as in Picture.
 struct PathResult {
     glm::vec3 sky{0.0f};         ///< seen directly
     glm::vec3 direct{0.0f};      ///< first surface: its emission, and punctual lights on it

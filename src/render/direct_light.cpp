@@ -16,8 +16,8 @@ glm::vec3 reflect(const Surface& surface, glm::vec3 toViewer, glm::vec3 toLight,
     return kernels::evalBsdf(bsdf, kernels::toLocal(frame, toViewer), kernels::toLocal(frame, toLight));
 }
 
-// Surfaces that the light could reach if nothing stood between. A light behind either normal does not: the geometric
-// one keeps light from seeping through a surface whose shading normal leans over its edge.
+// Surfaces that the light reaches if unoccluded. A light behind either normal does not: the geometric one prevents
+// leaks through a surface whose shading normal is bent past its edge.
 void collectCandidates(const PlacedLight& light, float sceneMagnitude, TileSamples& samples) {
     samples.candidates.clear();
     samples.shadowRays.clear();

@@ -4,7 +4,7 @@
 
 namespace probegi {
 
-/// Fills `direct`: the surface's own emission, and what it reflects of each punctual light that it can see.
+/// Fills `direct`: the surface's own emission, plus reflected light of each visible punctual light.
 /// Errors: those of the tracer.
 Result<void> shadeDirect(const Tracer& tracer, const Lighting& lighting, float sceneMagnitude, bool diffuseOnly,
                          TileSamples& samples);

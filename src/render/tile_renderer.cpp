@@ -13,14 +13,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Adds the time since `start` to a stage and starts the next one.
+// Adds the time since `start` to a stage and restarts the timer.
 void lap(Clock::time_point& start, std::atomic<std::int64_t>& stage) {
     const auto now = Clock::now();
     stage += std::chrono::duration_cast<std::chrono::nanoseconds>(now - start).count();
     start = now;
 }
 
-// What the samples of one pixel add up to.
+// Sum of a pixel's samples.
 struct PixelSum {
     glm::vec3 sky{0.0f}, direct{0.0f}, indirect{0.0f}, irradiance{0.0f}, albedo{0.0f}, normal{0.0f};
     float depth = 0;
@@ -55,8 +55,7 @@ TileRenderer::TileRenderer(const Tracer& tracer, const Lighting& lighting, const
       m_camera(kernels::makePinhole(desc.camera.position, desc.camera.forward, desc.camera.up, desc.camera.yfov,
                                     desc.width, desc.height)),
       m_sceneMagnitude(sceneMagnitude(tracer.bounds())) {
-    // What the tracer prepares for filtering, it prepares here, on all threads. Should it fail, the first tile will
-    // too.
+    // Lets the tracer prepare for filtering here, on all threads. If it fails, so will the first tile.
     static_cast<void>(tracer.filteredSurfaces({}, {}, spread(), {}));
 }
 

@@ -9,8 +9,7 @@
 
 namespace probegi {
 
-/// Renders any tile of one picture. Safe to use from many threads at once, each with its own TileSamples and on tiles
-/// of its own.
+/// Renders any tile of one picture. Thread-safe if each thread has its own TileSamples and tiles.
 class TileRenderer {
 public:
     TileRenderer(const Tracer& tracer, const Lighting& lighting, const Field* field, const PictureDesc& desc);
@@ -22,7 +21,7 @@ public:
     PictureTimes threadTimes() const;
 
 private:
-    /// Of the cone that a primary ray stands for, radians.
+    /// Cone angle of a primary ray, radians.
     float spread() const;
     Result<void> castPrimary(const Tile& tile, TileSamples& samples) const;
     Result<void> queryField(TileSamples& samples) const;

@@ -14,8 +14,8 @@ struct Tile {
     int width = 0, height = 0;
 };
 
-/// Everything about the primary rays of a tile, in the order pixel by pixel, sample by sample. `seen` lists the samples
-/// whose ray met a surface; arrays of light have one entry for each of those. Kept and reused tile after tile.
+/// Data of a tile's primary rays, pixel by pixel, sample by sample. `seen` lists the samples that hit a surface; arrays
+/// of light have one entry for each of those. Reused from tile to tile.
 struct TileSamples {
     std::vector<Ray> rays;
     std::vector<Hit> hits;
@@ -26,7 +26,7 @@ struct TileSamples {
     std::vector<FieldQuery> queries;
     std::vector<glm::vec3> irradiance;  // from the field
 
-    // Scratch of the direct light: one entry per shadow ray of the light at hand.
+    // Scratch for direct light: one entry per shadow ray of the current light.
     struct Candidate {
         std::uint32_t entry;   // of `seen`
         glm::vec3 irradiance;  // at normal incidence

@@ -53,7 +53,7 @@ glm::vec4 rawSample(const AnimationChannel& c, float seconds) {
 glm::vec4 sampleChannel(const AnimationChannel& channel, float seconds) {
     const glm::vec4 value = rawSample(channel, seconds);
     if (channel.path != AnimationPath::rotation) return value;
-    // A spline may pass through zero between two valid keys; no rotation is the only sensible answer there.
+    // A spline may pass through zero between two valid keys; use the identity there.
     const float length = glm::length(value);
     return length > 1e-12f ? value / length : glm::vec4(0, 0, 0, 1);
 }

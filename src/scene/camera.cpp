@@ -13,7 +13,7 @@ PlacedCamera lookAt(glm::vec3 from, glm::vec3 at, float yfov) {
     const glm::vec3 towards = at - from;
     const float distance = glm::length(towards);
     camera.forward = distance > 0 ? towards / distance : glm::vec3(0, 0, -1);
-    // Straight up or down, world -Z is "up" in the picture.
+    // Looking straight up or down, world -Z is up in the picture.
     const bool vertical = std::abs(camera.forward.y) > 0.9999f;
     const glm::vec3 hint = vertical ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
     const glm::vec3 right = glm::normalize(glm::cross(camera.forward, hint));

@@ -11,7 +11,7 @@
 #include "core/sentence.h"
 #include "probegi/scene.h"
 
-/// Small predicates and the common form of validate()'s sentences: "WHAT: WHY".
+/// Small predicates and the common form of validate()'s messages: "WHAT: WHY".
 namespace probegi::checks {
 
 inline bool finite(float v) {
@@ -38,8 +38,8 @@ inline bool within(float v, float lower, float upper) {
     return v >= lower && v <= upper;
 }
 
-/// The brightest light, W sr^-1 m^-2 or the unit of a lamp: from 1e21 on probes can no longer store it, and sums of the
-/// largest floats are infinite.
+/// Limit for light, W sr^-1 m^-2 or a lamp's unit: from 1e21 on probes can no longer store it, and sums of the largest
+/// floats are infinite.
 inline constexpr float kBrightest = 1e20f;
 
 /// From 0 to kBrightest.
@@ -54,7 +54,7 @@ inline std::string text(glm::vec4 v) {
     return sentence("(", v.x, ", ", v.y, ", ", v.z, ", ", v.w, ")");
 }
 
-/// A name of a file's as a sentence can quote it: files may have names of any length.
+/// A name from a file, shortened for a message: names may have any length.
 inline std::string quotable(std::string_view name) {
     constexpr std::size_t kMost = 80;
     if (name.size() <= kMost) return std::string(name);

@@ -52,7 +52,7 @@ std::vector<glm::mat4> worldMatrices(const Scene& scene, float seconds) {
     return world;
 }
 
-/// Unit vector along v, or `fallback` where a scale of zero left none.
+/// Unit vector along v, or `fallback` if v is zero after scaling.
 glm::vec3 directionOr(glm::vec3 v, glm::vec3 fallback) {
     const float length = glm::length(v);
     return length > 1e-20f && std::isfinite(length) ? v / length : fallback;
@@ -76,14 +76,13 @@ PlacedCamera placeCamera(const Camera& camera, const glm::mat4& world) {
     PlacedCamera placed = lookAt(position, position + forward, camera.yfov);
     placed.name = camera.name;
     placed.forward = forward;
-    // A sheared node's Y axis need not be orthogonal to its Z axis.
+    // A sheared node's Y axis may not be orthogonal to its Z axis.
     const glm::vec3 up(world[1]);
     placed.up = directionOr(up - glm::dot(up, forward) * forward, placed.up);
     return placed;
 }
 
-/// A transform that leaves a point or a line draws nothing and has no normals: scaling to zero is how files hide
-/// things.
+/// A transform to a point or a line draws nothing and has no normals: files hide objects by scaling to zero.
 bool collapsed(const glm::mat4& m) {
     const glm::vec3 x(m[0]), y(m[1]), z(m[2]);
     return glm::cross(x, y) == glm::vec3(0) && glm::cross(y, z) == glm::vec3(0) && glm::cross(z, x) == glm::vec3(0);
@@ -95,7 +94,7 @@ Bounds boundsOf(const Scene& scene, const std::vector<Instance>& instances) {
     bool any = false;
     for (const Instance& instance : instances) {
         for (const Primitive& p : scene.meshes[std::size_t(instance.mesh)].primitives) {
-            // By index, so that vertices that no triangle uses do not count.
+            // By index, to ignore vertices that no triangle uses.
             for (const std::uint32_t index : p.indices) {
                 const glm::vec3 v(instance.toWorld * glm::vec4(p.positions[index], 1));
                 b.lower = glm::min(b.lower, v);

@@ -7,7 +7,7 @@ namespace probegi {
 
 namespace {
 
-/// How far to move along each axis; 0 for a scene that is near enough.
+/// Shift along each axis; 0 for a scene near enough.
 glm::vec3 shiftOf(const Bounds& bounds) {
     constexpr float kFar = 16.0f;  // sizes of the scene: four of a float's 24 binary digits
     const glm::vec3 size = bounds.size();

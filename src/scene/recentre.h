@@ -4,9 +4,9 @@
 
 namespace probegi {
 
-/// Moves a scene that lies far from the origin, for its size, to it: float coordinates have seven digits, and far away
-/// few of them are left for the scene itself. Roots, their animations and the probe grid move; Scene::origin says how
-/// far. Multiples of a power of two are subtracted, so no coordinate loses a digit. Returns whether it moved.
+/// Moves a scene that is far from the origin relative to its size: float coordinates have seven digits, and far away
+/// few are left for the scene itself. Roots, their animations and the probe grid move; Scene::origin holds the shift.
+/// Multiples of a power of two are subtracted, so coordinates stay exact. Returns whether it moved.
 bool recentre(Scene& scene);
 
 }  // namespace probegi

@@ -5,8 +5,7 @@
 
 namespace probegi {
 
-/// Radiance that arrives from the sky along the unit vector `direction` (which points to the sky). Bilinear in the
-/// image, wrapping around horizontally.
+/// Radiance of the sky in the unit direction `direction`. Bilinear in the image, wrapping around horizontally.
 inline glm::vec3 skyRadiance(const Sky& sky, glm::vec3 direction) {
     if (!sky.textured()) return sky.radiance;
     const HdrImage& image = sky.image;

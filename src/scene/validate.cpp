@@ -6,7 +6,7 @@ using namespace checks;
 
 namespace {
 
-/// Finite values can still overflow where transforms multiply; the world must fit into floats with room for squares.
+/// Products of finite transforms can still overflow; the world must fit into floats with room for squares.
 Result<void> validateExtent(const Scene& scene) {
     constexpr float kLimit = 1e9f;
     const auto inside = [](glm::vec3 v, float limit) {
@@ -14,7 +14,7 @@ Result<void> validateExtent(const Scene& scene) {
     };
     const ScenePose pose = poseAt(scene);
     for (const Instance& instance : pose.instances) {
-        // So far below the largest float that the bounds below are sums without overflow, hence never NaN.
+        // So far below the largest float that the bounds cannot overflow, hence are never NaN.
         for (int column = 0; column < 4; ++column) {
             if (inside(glm::vec3(instance.toWorld[column]), 1e18f)) continue;
             const std::size_t node = std::size_t(instance.node);
@@ -38,7 +38,7 @@ Result<void> validateSurroundings(const Scene& scene) {
     if (!energy(sky.radiance)) return malformed("sky: radiance ", text(sky.radiance), " must be 0 to ", kBrightest);
     const HdrImage& image = sky.image;
     if (image.width < 0 || image.height < 0 || image.pixels.size() != std::size_t(image.width) * image.height) {
-        return malformed("sky image: ", image.pixels.size(), " pixels do not make ", image.width, " x ", image.height);
+        return malformed("sky image: ", image.pixels.size(), " pixels are not ", image.width, " x ", image.height);
     }
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         if (!energy(image.pixels[i]) || !energy(image.pixels[i] * sky.radiance)) {

@@ -9,7 +9,7 @@ Result<void> validateImages(const Scene& scene) {
         const TextureImage& image = scene.images[i];
         const std::string what = title("image", i, image.name);
         if (image.width < 1 || image.height < 1 || image.width > 65536 || image.height > 65536) {
-            return malformed(what, ": size ", image.width, " x ", image.height, " must be 1..65536 pixels each way");
+            return malformed(what, ": size ", image.width, " x ", image.height, " must be 1..65536 pixels per side");
         }
         const std::size_t expected = 4 * std::size_t(image.width) * std::size_t(image.height);
         if (image.rgba.size() != expected) {

@@ -8,8 +8,8 @@ using namespace checks;
 
 namespace {
 
-/// Normals and tangents are checked for being finite only: files bring ones that are a little off unit length, or zero,
-/// and whoever interpolates them has to normalise anyway.
+/// Normals and tangents must only be finite: files contain ones not quite of unit length, or zero, and interpolation
+/// must normalise anyway.
 template <class T>
 Result<void> validateAttribute(const std::string& what, const char* name, const std::vector<T>& values,
                                std::size_t vertices) {

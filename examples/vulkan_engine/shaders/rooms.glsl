@@ -1,4 +1,4 @@
-// The engine's scene for its shaders: FrameData of rooms.h, and rays against its boxes.
+// The engine's scene in shaders: FrameData of rooms.h, and ray tracing of its boxes.
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 
@@ -23,8 +23,8 @@ const float kRayStart = 1e-3;  // metres off a surface
 struct BoxHit {
     float distance;  // kMiss: the sky
     int box;
-    vec3 normal;  // towards where the ray came from
-    bool inside;  // the ray began within the box: it met the back of a face
+    vec3 normal;  // towards the ray's origin
+    bool inside;  // the ray started inside the box: it hit the back of a face
 };
 
 // The closest face of all boxes along a ray.

@@ -1,5 +1,5 @@
-// Deferred shading: the sun with its shadow, and what the probes say. The picture is twice as wide as the G-buffer: its
-// left half goes without the probes.
+// Deferred shading: the sun with shadows, and the probes. The picture is twice as wide as the G-buffer; its left half
+// is without the probes.
 #extension GL_EXT_samplerless_texture_functions : require
 
 #define PROBEGI_SET 1
@@ -26,7 +26,7 @@ void main() {
     if (position.w > 0.0) {
         const vec3 normal = texelFetch(normals, at, 0).xyz;
         const vec3 albedo = texelFetch(albedos, at, 0).rgb;
-        // The direction to the viewer; none, since this one looks in through a wall, which probes must not do.
+        // Direction to the viewer: none, since this camera looks in through a wall, which the look-up must not.
         const vec3 toViewer = vec3(0.0);
         // [query]
         vec3 irradiance = sunlight(frame, position.xyz, normal);

@@ -1,5 +1,5 @@
-// Ray data of the engine's own: what the rays of all probes bring home, in the form of probegi::RayDatum. Last frame's
-// field lights what they hit, so each update adds a bounce.
+// The engine's own ray data: the results of all probe rays as probegi::RayDatum. Last frame's field lights the hits, so
+// each update adds a bounce.
 #include "probegi/query.glsl"
 #include "rooms.glsl"
 

@@ -1,5 +1,4 @@
-// What shaders that read a field know of it: the uniform block of query.glsl. One struct for C++ and GLSL, scalar
-// layout.
+// A field as shaders see it: the uniform block of query.glsl. One struct for C++ and GLSL, scalar layout.
 #ifndef PROBEGI_KERNELS_FIELD_CONSTANTS_H
 #define PROBEGI_KERNELS_FIELD_CONSTANTS_H
 
@@ -8,7 +7,7 @@
 
 KERNELS_BEGIN
 
-// The most volumes of a field.
+// Maximum number of volumes in a field.
 KERNEL_CONST int kMostVolumes = 32;
 
 // The order of probegi::LeakGuard.

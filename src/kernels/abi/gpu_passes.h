@@ -1,5 +1,5 @@
 // Push constants of the compute passes: one struct for C++ and GLSL, scalar layout, at most 128 bytes. Buffers are
-// given by their device addresses, low word first.
+// passed as device addresses, low word first.
 #ifndef PROBEGI_KERNELS_GPU_PASSES_H
 #define PROBEGI_KERNELS_GPU_PASSES_H
 
@@ -10,7 +10,7 @@
 
 KERNELS_BEGIN
 
-// What the library's own BVH lies at, and the roots of its two levels (kernels/trace/bvh_traverse.h).
+// Addresses of the library's own BVH and the roots of its two levels (kernels/trace/bvh_traverse.h).
 struct BvhAddresses {
     uvec2 nodes;      // BvhNode[]
     uvec2 triangles;  // BvhTriangle[]
@@ -19,7 +19,7 @@ struct BvhAddresses {
     uint instancesRoot;
 };
 
-// The uniform buffer of a scene. Lights and sky of `scene` are left open: they come with each pass.
+// The uniform buffer of a scene. Lights and sky of `scene` are unset: each pass brings its own.
 struct SceneConstants {
     SceneAddresses scene;
     BvhAddresses bvh;
@@ -33,16 +33,16 @@ struct LightingBlock {
     int lightCount;
 };
 
-// One entry of the sparse visibility weights: what ray counts for a texel, and how much.
+// One entry of the sparse visibility weights: a ray and its weight for a texel.
 struct GpuRayWeight {
     uint ray;
     float weight;
 };
 
-// What there is of them for a texel.
+// The entries of one texel.
 struct GpuTexelRays {
     uint count;      // entries
-    float evidence;  // visibilityEvidence(); by the paper's rules 1
+    float evidence;  // visibilityEvidence(); 1 with the paper's rules
 };
 
 // probegi::ProbeTask: one probe of an update.
@@ -68,7 +68,7 @@ struct WeightsPush {
     uvec2 visibilityRays;     // GpuTexelRays[texel]
     uvec2 visibilityWeights;  // GpuRayWeight[entry][texel], in the order of rays
     int rays;
-    int irradianceTexels;  // of a map, all
+    int irradianceTexels;  // per map, total
     int visibilityTexels;
     int irradianceSize;  // side of a map
     int visibilitySize;
@@ -76,12 +76,12 @@ struct WeightsPush {
     int rules;
 };
 
-// What the passes of one update hand to each other about a probe (kernels/blend/temporal_filter.h).
+// Per-probe data that the passes of one update share (kernels/blend/temporal_filter.h).
 struct GpuProbeStep {
     ProbeSight sight;
     ProbeLag lag;
     float lagShare;        // of its irradiance, relative
-    float irradianceKept;  // share of the old values that survives
+    float irradianceKept;  // share of the old values that is kept
     float visibilityKept;
 };
 
@@ -123,13 +123,13 @@ struct BlendPush {
     uvec2 changes;        // out, where there are steps: TexelChange[block of texels][task]
 };
 
-// Ways into the open (find_solid_probes.comp).
+// Paths into the open (find_solid_probes.comp).
 struct SolidPush {
     uvec2 tasks;  // GpuTaskCounts, GpuTask[]
     uvec2 sides;  // ProbeSides[slot]
 };
 
-// Probe rays (trace_probes.comp), their shading (shade_probes.comp), and looks at emitters (look_at_emitters.comp).
+// Probe rays (trace_probes.comp), their shading (shade_probes.comp), and emitter samples (look_at_emitters.comp).
 struct TracePush {
     uvec2 tasks;          // GpuTaskCounts, GpuTask[]
     uvec2 directions;     // vec3[rays]
@@ -152,16 +152,16 @@ struct QueryPush {
     uint count;
 };
 
-// Closest hits of given rays, occlusion, surfaces (trace_rays.comp, trace_occlusion.comp, surfaces.comp).
+// Closest hits, occlusion and surfaces of given rays (trace_rays.comp, trace_occlusion.comp, surfaces.comp).
 struct RaysPush {
     uvec2 rays;     // Ray[count]
     uvec2 hits;     // Hit[count]
     uvec2 results;  // occlusion: uint[count]; surfaces: GpuSurface[count]
     uint count;
-    float spread;  // surfaces: radians of the cones that textures are filtered over; 0: not at all
+    float spread;  // surfaces: cone angle of texture filtering, radians; 0: unfiltered
 };
 
-// probegi::Surface without its gaps.
+// probegi::Surface without padding.
 struct GpuSurface {
     vec3 position;
     vec3 geometricNormal;
@@ -171,14 +171,13 @@ struct GpuSurface {
     float metallic;
     float roughness;
     int material;
-    int side;  // kSideFront, kSideBack (of a material with two sides), kSideBackface
+    int side;  // kSideFront, kSideBack (of a double-sided material), kSideBackface
 };
 KERNEL_CONST int kSideFront = 0;
 KERNEL_CONST int kSideBack = 1;
 KERNEL_CONST int kSideBackface = 2;
 
-// A picture, a band of rows at a time (picture_primary.comp, picture_direct.comp, picture_query.comp,
-// picture_resolve.comp).
+// One band of rows of a picture (picture_primary.comp, picture_direct.comp, picture_query.comp, picture_resolve.comp).
 struct PicturePush {
     uvec2 samples;   // GpuSample[sampleCount]
     uvec2 layers;    // vec3[layer][pixel of the band]
@@ -193,7 +192,7 @@ struct PicturePush {
 };
 KERNEL_CONST int kPictureDiffuseOnly = 1;
 
-// What a primary ray shows, between the passes of a picture.
+// A primary ray's result, passed between the passes of a picture.
 struct GpuSample {
     vec3 position;
     int kind;        // kSampleSky, kSampleSurface, kSampleBackface

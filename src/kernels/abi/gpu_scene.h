@@ -1,6 +1,6 @@
-// The scene as it lies in a GPU's buffers: the records that C++ packs (src/vulkan/scene/scene_data.h) and shaders read
-// (src/vulkan/shaders/scene.glsl). Scalar layout (GL_EXT_scalar_block_layout): the members follow each other without
-// gaps, as they do in C++ with members of 4 bytes. Indices count records, not bytes.
+// The scene in GPU buffers: the records that C++ packs (src/vulkan/scene/scene_data.h) and shaders read
+// (src/vulkan/shaders/scene.glsl). Scalar layout (GL_EXT_scalar_block_layout): no padding, as in C++ with 4-byte
+// members. Indices count records, not bytes.
 #ifndef PROBEGI_KERNELS_GPU_SCENE_H
 #define PROBEGI_KERNELS_GPU_SCENE_H
 
@@ -10,7 +10,7 @@ KERNELS_BEGIN
 
 struct GpuVertex {
     vec3 position;
-    vec3 normal;  // unit; zero: the mesh brings none
+    vec3 normal;  // unit; zero: the mesh has none
     vec2 uv;
 };
 
@@ -19,7 +19,7 @@ struct GpuTriangle {
     uint material;
 };
 
-// Triangles in one space with one way of meeting rays. Group g of a scene has the meshes 2 g (opaque) and 2 g + 1
+// Triangles of one space, all opaque or all masked. Group g of a scene has the meshes 2 g (opaque) and 2 g + 1
 // (masked); group 0 is the world.
 struct GpuMesh {
     uint firstVertex;
@@ -29,7 +29,7 @@ struct GpuMesh {
     int firstTangent;  // -1: no tangents
 };
 
-// A placement of a group. Matrices are columns of three: the last row would be 0 0 0 1.
+// A placed group. Matrices are 3-component columns; the implied last row is 0 0 0 1.
 struct GpuInstance {
     mat4x3 toWorld;
     mat4x3 toObject;
@@ -37,16 +37,16 @@ struct GpuInstance {
     int group;
 };
 
-// One use of an image.
+// A texture reference.
 struct GpuTexture {
-    uvec2 texels;  // bytes from the start of all texels to the image's, low word first
+    uvec2 texels;  // byte offset of the image's texels within all texels, low word first
     int width;
     int height;
-    vec3 rowU;  // the uv transform's upper two rows
+    vec3 rowU;  // upper two rows of the uv transform
     vec3 rowV;
     uint flags;  // textureWrapU() and so on
-    int levels;  // mip levels, 1: none but level 0
-    uvec2 mips;  // bytes from the start of all texels to level 1; the others follow
+    int levels;  // mip levels; 1: level 0 only
+    uvec2 mips;  // byte offset of level 1 within all texels; the others follow
 };
 
 struct GpuMaterial {
@@ -55,7 +55,7 @@ struct GpuMaterial {
     vec3 emission;
     float roughness;
     float normalScale;
-    float textureAlphaCutoff;  // what the texture's alpha must reach
+    float textureAlphaCutoff;  // threshold for the texture's alpha
     int doubleSided;
     int baseColorTexture;  // -1: none, here and below
     int metallicRoughnessTexture;
@@ -84,13 +84,12 @@ struct GpuLight {
 };
 
 struct GpuSky {
-    vec3 radiance;  // a factor on the image where there is one
+    vec3 radiance;  // multiplies the image, if there is one
     int width;      // 0: no image
     int height;
 };
 
-// Where everything lies: buffer device addresses, low word first, each a multiple of 16. Arrays that are empty may have
-// any address.
+// Buffer device addresses of all arrays, low word first, each a multiple of 16. Empty arrays may have any address.
 struct SceneAddresses {
     uvec2 vertices;
     uvec2 triangles;
@@ -137,7 +136,7 @@ KERNEL_FN int textureUvSet(uint flags) {
     return (flags & kTextureSecondUv) != 0u ? 1 : 0;
 }
 
-// Sum of two 64-bit numbers, low words first: few devices need 64-bit integers for anything else.
+// Sum of two 64-bit numbers, low words first, so that devices need no 64-bit integers.
 KERNEL_FN uvec2 addAddress(uvec2 a, uvec2 b) {
     const uint low = a.x + b.x;
     return uvec2(low, a.y + b.y + (low < a.x ? 1u : 0u));
@@ -148,7 +147,7 @@ KERNEL_FN uint texelCode(uint texel, int channel) {
     return (texel >> uint(8 * channel)) & 255u;
 }
 
-// RGB as they are stored, 0..255.
+// RGB as stored, 0..255.
 KERNEL_FN vec3 texelCodes(uint texel) {
     return vec3(float(texelCode(texel, 0)), float(texelCode(texel, 1)), float(texelCode(texel, 2)));
 }

@@ -8,33 +8,33 @@ KERNELS_BEGIN
 
 // RayDatum::distance of a ray that hit nothing is at least this.
 KERNEL_CONST float kMissDistance = 1e27f;
-// Bits of 1e30f and of infinity. Conditions on values that may be no numbers are on their bits: a shader compiler may
-// assume that there are none.
+// Bits of 1e30f and of infinity. NaN and infinity are tested by their bits, since a shader compiler may assume that
+// they do not occur.
 KERNEL_CONST uint kTooBrightBits = 0x7149f2cau;
 KERNEL_CONST uint kInfinityBits = 0x7f800000u;
 
-// A channel of a ray's radiance: what is not a number, infinite, negative or above 1e30 never enters an atlas.
+// A channel of a ray's radiance: NaN, infinite, negative values and values above 1e30 never enter an atlas.
 KERNEL_FN float safeRadiance(float x) {
     return select(floatBitsToUint(x) < kTooBrightBits, x, 0.0f);
 }
 
-// A ray's distance: not a number is a miss.
+// A ray's distance; NaN is a miss.
 KERNEL_FN float safeDistance(float signedDistance) {
     return select((floatBitsToUint(signedDistance) & 0x7fffffffu) > kInfinityBits, 1e30f, signedDistance);
 }
 
-// Whether a ray met the back of a surface, by winding: the sign of its safe distance, at distance 0 too.
+// Whether a ray hit the back of a surface, by winding: the sign of its safe distance, even at distance 0.
 KERNEL_FN bool hitBack(float safeSignedDistance) {
     return (floatBitsToUint(safeSignedDistance) & 0x80000000u) != 0u;
 }
 
-// Whether that surface is single-sided, and its back solid wall. From the back of a surface with two sides a ray brings
-// minus its radiance with minus its distance.
+// Whether that surface is single-sided, so that its back is solid wall. For the back of a double-sided surface,
+// radiance and distance are both negated.
 KERNEL_FN bool hitBackface(float safeSignedDistance, float signedRed) {
     return hitBack(safeSignedDistance) && (floatBitsToUint(signedRed) & 0x80000000u) == 0u;
 }
 
-// What arrives along a ray, from its datum: nothing from a backface.
+// Radiance that arrives along a ray, from its datum; 0 from a backface.
 KERNEL_FN vec3 arrivingRadiance(float safeSignedDistance, vec3 signedRadiance) {
     const bool back = hitBack(safeSignedDistance);
     const vec3 light = back ? -signedRadiance : signedRadiance;
@@ -42,8 +42,8 @@ KERNEL_FN vec3 arrivingRadiance(float safeSignedDistance, vec3 signedRadiance) {
     return dark ? vec3(0.0f) : vec3(safeRadiance(light.x), safeRadiance(light.y), safeRadiance(light.z));
 }
 
-// The radiance of a datum from the back of a surface with two sides. A black one brings next to nothing instead of
-// nothing: no processor keeps the sign of 0 on all ways.
+// The radiance of a datum for the back of a double-sided surface. Black becomes a tiny value, since the sign of 0 is
+// not reliably preserved.
 KERNEL_FN vec3 radianceFromBack(vec3 radiance) {
     return -max(radiance, vec3(1e-30f));
 }
@@ -53,25 +53,24 @@ KERNEL_FN float backfaceShareOf(int backfaces, int hits) {
     return select(hits > 0, float(backfaces) / float(max(hits, 1)), 0.0f);
 }
 
-// Factor that makes weights of this sum add up to 1. A texel that no ray comes near (few rays, high exponent) keeps
-// weight 0 throughout.
+// Normalisation factor for weights of this sum. A texel that no ray comes near (few rays, high exponent) keeps weight 0
+// throughout.
 KERNEL_FN float normalisingFactor(float weightSum) {
     return select(weightSum > 1e-20f, 1.0f / max(weightSum, 1e-20f), 0.0f);
 }
 
-// BackfaceRule::excluded: the weights of the rays that count, instead of all weights, sum to 1. `validity`: the former.
+// BackfaceRule::excluded: renormalises over the weights of the rays that count, `validity`, instead of all weights.
 KERNEL_FN float withoutBackfaces(float mean, float validity) {
     return mean / max(validity, 1e-6f);
 }
 
-// Weight of a ray for an irradiance texel: the clamped cosine of eq. 1 (normalised by the caller with the sum of
-// weights).
+// Weight of a ray for an irradiance texel: the clamped cosine of eq. 1 (the caller normalises by the sum of weights).
 KERNEL_FN float irradianceWeight(vec3 texelDirection, vec3 rayDirection) {
     return max(0.0f, dot(texelDirection, rayDirection));
 }
 
-// Visibility weights below this share of a texel's largest count for nothing: powers of small cosines are nine weights
-// in ten, and many of them denormal numbers, which cost some processors a hundred cycles each.
+// Visibility weights below this share of a texel's largest are dropped: nine in ten are powers of small cosines, many
+// of them denormals, which cost some processors a hundred cycles each.
 KERNEL_CONST float kNegligibleWeight = 1e-8f;
 
 // Cosine at which a ray's weight is negligible, where `nearest` is the largest cosine of all rays.
@@ -79,8 +78,8 @@ KERNEL_FN float leastVisibilityCosine(float nearest, float exponent) {
     return max(nearest, 0.0f) * pow(kNegligibleWeight, 1.0f / exponent);
 }
 
-// Weight of a ray for a visibility texel: the power cosine of section 2.3. By squares, since that is what processors
-// agree on: their pow() of 200 differs in the fifth digit.
+// Weight of a ray for a visibility texel: the power cosine of section 2.3. By repeated squaring, which is the same
+// everywhere: pow() with exponent 200 differs between processors in the fifth digit.
 KERNEL_FN float visibilityWeight(vec3 texelDirection, vec3 rayDirection, float exponent) {
     const float cosine = max(0.0f, dot(texelDirection, rayDirection));
     const float whole = floor(exponent);
@@ -93,21 +92,21 @@ KERNEL_FN float visibilityWeight(vec3 texelDirection, vec3 rayDirection, float e
     return power;
 }
 
-// How much an update's rays tell of a visibility texel, as a share of what rays that are spread evenly tell on average:
-// the sum of their weights over its mean, since the power cosine's mean over all directions is 1 / (2 (exponent + 1)).
-// Few rays leave texels between them: what the nearest of them brings home is hardly theirs.
+// Evidence of an update's rays for a visibility texel, relative to the average for uniformly spread rays: the sum of
+// their weights over its mean, since the power cosine's mean over all directions is 1 / (2 (exponent + 1)). With few
+// rays, even the nearest may say little about a texel between them.
 KERNEL_FN float visibilityEvidence(float weightSum, float exponent, int rays) {
     return weightSum * 2.0f * (exponent + 1.0f) / float(rays);
 }
 
-// Share of a texel's old moments that survives, where `kept` is that of its probe: old and new are averaged by what
-// they rest on. A probe that keeps nothing keeps nothing of any texel.
+// Share of a texel's old moments that is kept, where `kept` is that of its probe: old and new are weighted by their
+// evidence. A probe that keeps nothing keeps nothing of any texel.
 KERNEL_FN float keptMoments(float kept, float evidence) {
     return kept > 0.0f ? max(0.0f, 1.0f - (1.0f - kept) * evidence) : 0.0f;
 }
 
-// Distance of a ray as the visibility map averages it, in units of `maxDistance`, 0..1. A backface (negative distance)
-// counts with a fifth of its distance: "shorten their depth values by 80%" (section 4.1).
+// A ray's distance for the visibility map, in units of `maxDistance`, 0..1. A backface (negative distance) counts with
+// a fifth of its distance: "shorten their depth values by 80%" (section 4.1).
 KERNEL_FN float visibilityDistance(float signedDistance, float maxDistance) {
     const float d = signedDistance < 0.0f ? -0.2f * signedDistance : signedDistance;
     return min(d, maxDistance) / maxDistance;
@@ -119,8 +118,8 @@ struct BlendRule {
     float newDistribution;    // Listing 3; 0 disables
 };
 
-// Listing 3: the hysteresis of one texel, from its old and new encoded value. The paper's thresholds are shares of the
-// "maximum value" of a format that ends at 1; here the maximum is the larger of the two texels, so that the rule is
+// Listing 3: the hysteresis of one texel, from its old and new encoded value. The paper's thresholds are relative to
+// the "maximum value" of a format that ends at 1; here the maximum is the larger of the two texels, so that the rule is
 // the same at every brightness.
 KERNEL_FN float texelHysteresis(vec3 oldStored, vec3 newStored, BlendRule rule) {
     const vec3 change = abs(newStored - oldStored);
@@ -132,14 +131,14 @@ KERNEL_FN float texelHysteresis(vec3 oldStored, vec3 newStored, BlendRule rule) 
     return select(rule.newDistribution > 0.0f && magnitude > rule.newDistribution * scale, 0.0f, h);
 }
 
-// Listing 1: blends in the encoded space, where a fall to dark is perceptually linear. `newMean` is linear.
+// Listing 1: blends in the encoded space, where darkening is perceptually linear. `newMean` is linear.
 KERNEL_FN vec3 blendEncoded(vec3 oldStored, vec3 newMean, BlendRule rule) {
     const vec3 newStored = vec3(encodeIrradiance(newMean.x), encodeIrradiance(newMean.y), encodeIrradiance(newMean.z));
     return mix(newStored, oldStored, texelHysteresis(oldStored, newStored, rule));
 }
 
-// The same in linear space: unbiased, for averages of a scene that stands still (the mean of fifth roots of noisy
-// values is lower than the fifth root of their mean).
+// The same in linear space: unbiased, for averages of a static scene (the mean of fifth roots of noisy values is lower
+// than the fifth root of their mean).
 KERNEL_FN vec3 blendLinear(vec3 oldStored, vec3 newMean, float hysteresis) {
     const vec3 oldMean =
         vec3(decodeIrradiance(oldStored.x), decodeIrradiance(oldStored.y), decodeIrradiance(oldStored.z));

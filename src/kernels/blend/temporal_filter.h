@@ -1,12 +1,11 @@
-// How long a probe's memory is (in place of the DDGI paper's fixed hysteresis and the thresholds of its Listing 3).
+// The temporal filter of a probe (in place of the DDGI paper's fixed hysteresis and the thresholds of its Listing 3).
 //
-// A probe's irradiance is a running average in linear light. Its window, in updates, is the one number that decides
-// between noise (too short) and lag (too long). Noise is measured where it arises, in the blend: how far an update's
-// texels lie from the average. Lag is measured by a few fixed rays that the probe traces in every update along the same
-// directions: in a scene that stands still they bring home the same direct light to the last bit, so what they bring
-// now minus their own average, kept at the probe's own rate, is how far the probe's average lags behind, and nothing
-// else. Light by way of the field (bounced) has the field's noise in it; it is averaged over neighbours before it
-// counts.
+// A probe's irradiance is a running average in linear light. Its window, in updates, trades noise (too short) against
+// lag (too long). Noise is measured in the blend: how far an update's texels are from the average. Lag is measured by a
+// few fixed rays that the probe traces in every update along the same directions: in a static scene they return the
+// same direct light to the last bit, so their current light minus its own average, kept at the probe's rate, is exactly
+// the lag of the probe's average. Light from the field (bounced) contains the field's noise, so it is averaged over
+// neighbours first.
 #ifndef PROBEGI_KERNELS_TEMPORAL_FILTER_H
 #define PROBEGI_KERNELS_TEMPORAL_FILTER_H
 
@@ -21,30 +20,31 @@ KERNELS_BEGIN
 KERNEL_CONST int kSightLobes = 8;
 KERNEL_CONST int kDistanceLobes = 4;
 
-// Longest windows, in updates. That for distances is shorter: what moves may pass between the fixed rays.
+// Longest windows, in updates. Shorter for distances, since moving objects may pass between the fixed rays.
 KERNEL_CONST float kLongestWindow = 200.0f;
 KERNEL_CONST float kLongestVisibilityWindow = 100.0f;
-// Growth of a window an update, updates: half a one forgets like 1 / k^2 what was averaged before the last k updates.
+// Growth of a window per update, in updates: with a half, the weight of what precedes the last k updates falls like 1 /
+// k^2.
 KERNEL_CONST float kWindowGrowth = 0.5f;
-// The same as a share of the window, at most: after a change of the light the first windows stay short until the
-// bounces have come, which takes some five updates. In rooms that are lit by a small patch of sun that lag is not seen:
-// it is smaller than the noise of the patch, which all probes of the room have in common.
+// Upper limit of the same as a share of the window: after a change of light, windows stay short until the bounces have
+// arrived, about five updates. In rooms lit by a small patch of sun this lag goes undetected: it is smaller than the
+// noise of the patch, which all probes of the room share.
 KERNEL_CONST float kYoungGrowth = 0.15f;
-// A probe darker than this share of its brightest neighbour is judged by that share: in the dark, a flicker of nothing
-// is a large ratio.
+// Floor of a probe's brightness relative to its brightest neighbour, since in the dark a negligible flicker is a large
+// ratio.
 KERNEL_CONST float kDarkShare = 0.05f;
-// Share of a neighbour's lag that a probe takes for its own.
+// Share of a neighbour's lag that a probe adopts.
 KERNEL_CONST float kSpreadLag = 0.5f;
-// What a lag of the bounced light counts for. It comes back with the next bounce, and again: where surfaces reflect two
-// thirds, three times as much in the end. Taken as it is, a room of many bounces keeps a tenth of a small change for
-// twice as long (docs/accuracy.md), with the same flicker.
+// Factor on the lag of bounced light, which recurs with every further bounce: three times as much in total if surfaces
+// reflect two thirds. With 1, a room with many bounces keeps a tenth of a small change for twice as long
+// (docs/accuracy.md), with the same flicker.
 KERNEL_CONST float kBounceLag = 3.0f;
-// Where an update's change is below this multiple of the lag's square, it says nothing of noise.
+// An update's change below this multiple of the lag's square says nothing about noise.
 KERNEL_CONST float kLagInChange = 4.0f;
 // Updates over which noise is averaged.
 KERNEL_CONST float kNoiseWindow = 16.0f;
 
-// What all fixed rays of a probe bring home in one update.
+// Results of a probe's fixed rays in one update.
 struct ProbeSight {
     float direct[8];    // mean of a lobe's rays, W sr^-1 m^-2
     float bounced;      // mean of all
@@ -54,7 +54,7 @@ struct ProbeSight {
 // The averages and windows of a probe: 32 bytes when packed.
 struct ProbeFilter {
     float direct[8];  // of ProbeSight, at the rate 1 / window
-    float bounced;    // the same; below 0: the averages are not known
+    float bounced;    // the same; below 0: the averages are unknown
     float distance[4];
     float noise;             // standard deviation of one update's texels, as a share of their mean
     float window;            // updates; 0: the probe is new
@@ -84,7 +84,7 @@ KERNEL_FN int distanceLobe(int lobe) {
     return lobe >> 1;
 }
 
-// What the fixed rays of a probe bring home, while it is added up.
+// Accumulator for ProbeSight.
 struct SightSum {
     float direct[8];
     float distance[4];
@@ -103,7 +103,7 @@ KERNEL_FN SightSum noSight() {
     return sum;
 }
 
-// Adds a fixed ray; the lights are luminances, `distance` is as RayDatum's, all as they come.
+// Adds a fixed ray; lights are luminances, `distance` as in RayDatum, all unsanitised.
 KERNEL_FN void addToSight(INOUT(SightSum) sum, vec3 direction, float direct, float bounced, float distance,
                           float maxDistance) {
     const int lobe = sightLobe(direction);
@@ -113,7 +113,7 @@ KERNEL_FN void addToSight(INOUT(SightSum) sum, vec3 direction, float direct, flo
     sum.rays[lobe] += 1.0f;
 }
 
-// The same of an update ray: its direction changes from update to update, so that only the mean of all means something.
+// The same for an update ray: its direction changes with every update, so only the mean over all rays is meaningful.
 KERNEL_FN void addOwnRayToSight(INOUT(SightSum) sum, vec3 radiance, float distance) {
     const float light = luminance(arrivingRadiance(safeDistance(distance), radiance));
     for (int i = 0; i < kSightLobes; ++i) {
@@ -156,7 +156,7 @@ KERNEL_FN ProbeLag probeLag(ProbeSight now, ProbeFilter state) {
     return lag;
 }
 
-// What is in solid matter says nothing to its neighbours: nobody uses it, and what it sees depends on its materials.
+// Probes in solid matter are ignored by their neighbours: they are unused, and what they see depends on materials.
 KERNEL_FN ProbeLag lagHeard(ProbeLag lag, float backfaceShare) {
     const float heard = backfaceShare < kInsideShare + kInsideShareEdge ? 1.0f : 0.0f;
     lag.direct *= heard;
@@ -193,16 +193,16 @@ KERNEL_FN void addLag(INOUT(LagAround) around, ProbeLag lag, float brightest, bo
     around.distance = max(around.distance, share * lag.distance);
 }
 
-// Where there are no fixed rays, the update's own rays must do: their mean light has noise, of which a multiple is
-// taken off before it counts as lag. Large changes are followed at once, small ones by the window's limit.
+// Without fixed rays, the update's own are used: a multiple of the noise of their mean light is subtracted before the
+// rest counts as lag. Large changes are followed at once, small ones by the window's limit.
 KERNEL_CONST float kOwnRaysNoise = 3.0f;
 KERNEL_FN float lagBeyondNoise(float lag, float noise) {
     return sqrt(max(0.0f, lag * lag - kOwnRaysNoise * kOwnRaysNoise * noise * noise));
 }
 
 // The lag of a probe's irradiance, as a share of it. Bounced light has the noise of the averages that it comes from,
-// which a room's probes have in common where a small patch lights them all: what an average of this window, of updates
-// of this noise, may well have is no lag. Else noise makes windows short, and those more noise.
+// common to a room's probes if a small patch lights them all: a deviation that noise of this size explains in an
+// average of this window is not lag. Otherwise noise would shorten windows, which makes more noise.
 KERNEL_FN float filterLag(LagAround around, float noise, float window, bool ownRays) {
     const float left = noise * noise / max(2.0f * window - 1.0f, 1.0f);
     const float bounced = around.bounced / max(around.level, 1e-30f);
@@ -211,13 +211,13 @@ KERNEL_FN float filterLag(LagAround around, float noise, float window, bool ownR
     return ownRays ? lagBeyondNoise(lag, noise) : lag;
 }
 
-// Share of the old value that survives an update in a window of this length.
+// Share of the old value that an update keeps with a window of this length.
 KERNEL_FN float keptBy(float window) {
     return 1.0f - 1.0f / max(window, 1.0f);
 }
 
-// The window with which the coming values join the average: as long as lag allows, and lag is allowed to be as large as
-// the noise that is left in an average of that length, noise / sqrt(2 window).
+// The window for the next update: as long as its lag does not exceed the noise left in an average of that length, noise
+// / sqrt(2 window).
 KERNEL_FN float bearableWindow(float wished, float noise, float lag, float longest) {
     const float bearable = noise * noise / max(2.0f * lag * lag, 1e-12f);
     return clamp(min(wished, bearable), 1.0f, max(longest, 1.0f));
@@ -226,14 +226,14 @@ KERNEL_FN float nextWindow(float window, float noise, float lag, float longest) 
     return bearableWindow(window + min(kWindowGrowth, kYoungGrowth * window), noise, lag, longest);
 }
 
-// The window for distances, which have no bounces to wait for. Their noise is not measured: kDistanceNoise stands for
-// it.
+// The window for distances, which have no bounces to wait for. Their noise is not measured but assumed to be
+// kDistanceNoise.
 KERNEL_CONST float kDistanceNoise = 0.2f;
 KERNEL_FN float nextVisibilityWindow(float window, float lag, float longest) {
     return bearableWindow(window + kWindowGrowth, kDistanceNoise, lag, longest);
 }
 
-// Joins an update's sight to the averages, at the rates of the filter's windows.
+// Blends an update's sight into the averages, at the rates of the filter's windows.
 KERNEL_FN void advanceFilter(INOUT(ProbeFilter) state, ProbeSight now) {
     const bool known = !isUnknown(state);
     const float rate = known ? 1.0f / max(state.window, 1.0f) : 1.0f;
@@ -243,11 +243,11 @@ KERNEL_FN void advanceFilter(INOUT(ProbeFilter) state, ProbeSight now) {
     for (int i = 0; i < kDistanceLobes; ++i) state.distance[i] = mix(state.distance[i], now.distance[i], distanceRate);
 }
 
-// How far an update's texels lie from the average.
+// Difference of an update's texels from the average.
 struct TexelChange {
     float square;  // sum of squared differences, over channels
     float before;  // sum of the average's texels, over channels
-    float now;     // sum of the update's
+    float now;     // sum of the update's texels
 };
 
 KERNEL_FN TexelChange noChange() {
@@ -279,9 +279,8 @@ KERNEL_FN float relativeChange(TexelChange change, int texels) {
 }
 
 // Noise after an update whose texels differed from the average by the mean square `change`, relative to the square of
-// their mean. What is lag is not noise, and where lag has a large part in the change, noise may fall but not rise; the
-// average's own share of noise is taken off. As long as there is nothing to compare with it stays unknown (0), and so
-// the window short.
+// their mean. Lag is excluded; if it is a large part of the change, noise may fall but not rise. The average's own
+// share of noise is subtracted. Without anything to compare with, noise stays unknown (0), and so the window short.
 KERNEL_FN float nextNoise(float noise, float change, float lag, float window, bool isNew) {
     if (isNew) return 0.0f;
     const float own = 1.0f + 1.0f / (2.0f * max(window, 1.0f) - 1.0f);
@@ -297,8 +296,8 @@ KERNEL_FN uint packLight(float x, uint dither) {
 KERNEL_FN float unpackLight(uint bits) {
     return decodeIrradiance(unpackHalf(bits));
 }
-// An average that is not known: its bits are 0, those of known ones are one higher than the light's. So all bits 0 are
-// the filter of a new probe.
+// An unknown average: packed as 0; known ones are packed as the light's bits plus one. So all bits 0 are the filter of
+// a new probe.
 KERNEL_CONST float kUnknownLight = -1.0f;
 
 KERNEL_FN uint packWindows(float window, float visibilityWindow) {
@@ -306,7 +305,7 @@ KERNEL_FN uint packWindows(float window, float visibilityWindow) {
 }
 
 KERNEL_FN PackedProbeFilter packFilter(ProbeFilter f, uint seed) {
-    // One dither for all: it is the averages' expected values that matter.
+    // One dither for all: only the averages' expected values matter.
     const uint dither = seed >> 19u;
     PackedProbeFilter packed;
     for (int i = 0; i < 4; ++i)
@@ -338,8 +337,7 @@ KERNEL_FN ProbeFilter unpackFilter(PackedProbeFilter packed) {
     return f;
 }
 
-// A filter after updates that were part of an average: the window that the average stands for, and nothing known of the
-// fixed rays' light.
+// A filter after the updates of an average: the average's window, and unknown light of the fixed rays.
 KERNEL_FN PackedProbeFilter forgottenFilter(float window) {
     const float w = clamp(window, 1.0f, kLongestWindow);
     PackedProbeFilter packed;

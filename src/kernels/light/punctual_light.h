@@ -1,4 +1,4 @@
-// Light without size: the directional, point and spot lights of KHR_lights_punctual.
+// Punctual lights: the directional, point and spot lights of KHR_lights_punctual.
 #ifndef PROBEGI_KERNELS_PUNCTUAL_LIGHT_H
 #define PROBEGI_KERNELS_PUNCTUAL_LIGHT_H
 
@@ -6,18 +6,18 @@
 
 KERNELS_BEGIN
 
-// The order of probegi::LightType.
+// In the order of probegi::LightType.
 KERNEL_CONST int kLightDirectional = 0;
 KERNEL_CONST int kLightPoint = 1;
 KERNEL_CONST int kLightSpot = 2;
 
-// The distance of a light that is infinitely far away: more than any scene, less than Ray::far.
+// Distance of a light at infinity: larger than any scene, less than Ray::far.
 KERNEL_CONST float kLightAtInfinity = 1e29f;
 
 struct LightSample {
     vec3 toLight;             // unit, from the point to the light
     float distance;           // metres; kLightAtInfinity for a directional light
-    vec3 irradianceAtNormal;  // W m^-2 on a surface that faces the light; times the cosine elsewhere
+    vec3 irradianceAtNormal;  // W m^-2 at normal incidence
 };
 
 // Extension text, "Range Property": attenuation = max(min(1 - (distance / range)^4, 1), 0) / distance^2; the window
@@ -37,8 +37,8 @@ KERNEL_FN float punctualConeFactor(float cosAngle, float cosInner, float cosOute
     return ramp * ramp;
 }
 
-// What a point receives from a light, without shadows. `lightDir` is unit, the way the light travels. A point at the
-// light's own position receives nothing: there the inverse square has no value.
+// Unshadowed light at a point. `lightDir` is unit, the direction in which the light travels. A point at the light's own
+// position receives nothing, since the inverse square is undefined there.
 KERNEL_FN LightSample samplePunctual(int type, vec3 lightPos, vec3 lightDir, vec3 intensity, float range,
                                      float cosInner, float cosOuter, vec3 point) {
     LightSample result;

@@ -6,8 +6,8 @@
 
 KERNELS_BEGIN
 
-// Where a unit direction lies in the image, 0..1; u = 1/2 is -Z and grows towards +X. The polar angle comes from an
-// arc tangent: near the poles an arc cosine loses half its digits.
+// Image coordinates of a unit direction, 0..1; u = 1/2 is -Z and grows towards +X. The polar angle uses an
+// arc tangent, since near the poles an arc cosine loses half its digits.
 KERNEL_FN vec2 skyUv(vec3 direction) {
     const float level = sqrt(direction.x * direction.x + direction.z * direction.z);
     const float u = level > 0.0f ? atan(direction.x, -direction.z) / (2.0f * kPi) + 0.5f : 0.5f;
@@ -24,7 +24,7 @@ struct SkyTexels {
     float alongY;
 };
 
-// Always inside the image, whatever uv is.
+// Always inside the image, for any uv.
 KERNEL_FN SkyTexels skyTexels(vec2 uv, int width, int height) {
     const float x = uv.x * float(width) - 0.5f;
     const float y = clamp(uv.y * float(height) - 0.5f, 0.0f, float(height - 1));

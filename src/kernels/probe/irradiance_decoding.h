@@ -1,4 +1,4 @@
-// Reading stored irradiance back (DDGI paper, section 4.2, Listing 2).
+// Decoding stored irradiance (DDGI paper, section 4.2, Listing 2).
 #ifndef PROBEGI_KERNELS_IRRADIANCE_DECODING_H
 #define PROBEGI_KERNELS_IRRADIANCE_DECODING_H
 
@@ -12,7 +12,7 @@ KERNEL_FN Real decodeIrradiance(Real stored) {
     return s2 * s2 * stored;
 }
 
-// Stored value -> the exponent-2 curve in which the probes of a cage are interpolated: stored^(5/2), without a pow.
+// Stored value -> the space with exponent 2 in which a cage's probes are interpolated: stored^(5/2), without pow.
 KERNEL_FN Real decodeToBlendSpace(Real stored) {
     return stored * stored * sqrt(stored);
 }

@@ -6,8 +6,9 @@
 
 KERNELS_BEGIN
 
-// x^(1/5) for 0 <= x < 1e30, relative error below 3e-7; 0 below 1e-30. A first guess from the exponent bits, then three
-// Newton steps for y^5 = x (each squares the relative error, twice over): the same on every backend, and it vectorises.
+// x^(1/5) for 0 <= x < 1e30, relative error below 3e-7; 0 below 1e-30. An initial guess from the exponent bits, then
+// three Newton steps for y^5 = x (each leaves about twice the square of the relative error): the same on every backend,
+// and vectorisable.
 KERNEL_FN float encodeIrradiance(float x) {
     const float safe = max(x, 1e-30f);
     float y = uintBitsToFloat(floatBitsToUint(safe) / 5u + 852282573u);

@@ -8,7 +8,7 @@
 
 KERNELS_BEGIN
 
-// Unit vector -> [-1, 1]^2. Any non-zero length gives the same result.
+// Vector of any non-zero length -> [-1, 1]^2.
 KERNEL_FN Real2 octEncode(Real3 d) {
     const Real inv = 1.0f / (abs(d.x) + abs(d.y) + abs(d.z));
     const Real px = d.x * inv;
@@ -27,7 +27,7 @@ KERNEL_FN Real3 octDecode(Real2 p) {
     return Real3(x * inv, y * inv, z * inv);
 }
 
-// Position in texel units of a point of the square: texel (x, y) is centred at (x, y), the border lies at -1 and size.
+// Point of the square -> texel units: texel (x, y) is centred at (x, y), the border is at -1 and size.
 KERNEL_FN Real2 octTexelPosition(Real2 p, int size) {
     const float half_ = 0.5f * float(size);
     return Real2(p.x * half_ + (half_ - 0.5f), p.y * half_ + (half_ - 0.5f));

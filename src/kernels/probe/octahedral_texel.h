@@ -1,4 +1,4 @@
-// Texels of an octahedral map one at a time: directions of centres, and which texel the border repeats.
+// Single texels of an octahedral map: directions of their centres, and which texels the border repeats.
 #ifndef PROBEGI_KERNELS_OCTAHEDRAL_TEXEL_H
 #define PROBEGI_KERNELS_OCTAHEDRAL_TEXEL_H
 
@@ -21,8 +21,8 @@ KERNEL_FN ivec2 octWrapTexel(int x, int y, int size) {
     return t;
 }
 
-// The other way round: the `copy`-th border texel (0, 1 or 2) that repeats the interior texel (x, y), or (x, y) itself
-// where there are fewer. Copies 0 and 1 lie along the two pairs of edges, copy 2 in the corner.
+// The inverse: the `copy`-th border texel (0, 1 or 2) that repeats the interior texel (x, y), or (x, y) itself if there
+// are fewer. Copies 0 and 1 lie along the two pairs of edges, copy 2 in the corner.
 KERNEL_FN ivec2 octBorderTexel(int x, int y, int size, int copy) {
     const int last = size - 1;
     const bool onX = x == 0 || x == last;

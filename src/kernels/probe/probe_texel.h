@@ -1,5 +1,5 @@
-// What an update stores into a texel of a probe: blend, dither, 16 bits. The same bits on every backend that brings the
-// same means.
+// What an update stores in a probe's texel: blend, dither, 16 bits. Every backend with the same means stores the same
+// bits.
 #ifndef PROBEGI_KERNELS_PROBE_TEXEL_H
 #define PROBEGI_KERNELS_PROBE_TEXEL_H
 
@@ -14,7 +14,7 @@ KERNEL_FN uvec3 blendIrradianceTexel(vec3 oldStored, vec3 newMean, BlendRule rul
                                      uint texel) {
     const vec3 value =
         linearSpace ? blendLinear(oldStored, newMean, rule.hysteresis) : blendEncoded(oldStored, newMean, rule);
-    // One dither for the three channels: it keeps greys grey.
+    // One dither for all three channels keeps greys grey.
     const uint dither = storageDither(frameSeed, texel) >> 19u;
     return uvec3(packHalfDithered(value.x, dither), packHalfDithered(value.y, dither),
                  packHalfDithered(value.z, dither));
@@ -25,12 +25,12 @@ KERNEL_FN vec2 unpackMoments(uint stored) {
     return vec2(unpackUnorm16(stored & 0xffffu), unpackUnorm16(stored >> 16u));
 }
 
-// The bits of moments that were read as unorm, exactly.
+// Bits of moments read as unorm, exactly.
 KERNEL_FN uint packMoments(vec2 moments) {
     return uint(moments.x * 65535.0f + 0.5f) | uint(moments.y * 65535.0f + 0.5f) << 16u;
 }
 
-// The new bits of a visibility texel: the mean low, the mean square high.
+// The new bits of a visibility texel: mean in the low half, mean square in the high half.
 KERNEL_FN uint blendVisibilityTexel(uint oldStored, vec2 newMoments, float hysteresis, uint frameSeed, uint texel) {
     const vec2 moments = mix(newMoments, unpackMoments(oldStored), hysteresis);
     const float dither = uintToUnit(storageDither(frameSeed ^ 0x5bd1e995u, texel));

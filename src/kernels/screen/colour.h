@@ -1,4 +1,4 @@
-// Linear Rec.709 colours: how bright they look, and how displays and textures encode them.
+// Linear Rec.709 colours: luminance and sRGB encoding.
 #ifndef PROBEGI_KERNELS_COLOUR_H
 #define PROBEGI_KERNELS_COLOUR_H
 

@@ -29,7 +29,7 @@ KERNEL_FN vec3 pinholeDirection(PinholeCamera camera, float x, float y) {
     return normalize(camera.corner + camera.pixelRight * x + camera.pixelDown * y);
 }
 
-// Angle in radians that one of `samplesPerAxis` rays across a pixel stands for, in the middle of the picture.
+// Angle in radians covered by one of `samplesPerAxis` rays across a pixel, at the picture's centre.
 KERNEL_FN float pinholeSpread(PinholeCamera camera, int samplesPerAxis) {
     return length(camera.pixelRight) / float(samplesPerAxis);
 }

@@ -1,4 +1,4 @@
-// From scene-referred light to what a display is sent.
+// From scene-referred light to display codes.
 #ifndef PROBEGI_KERNELS_TONE_MAP_H
 #define PROBEGI_KERNELS_TONE_MAP_H
 
@@ -10,15 +10,15 @@ KERNEL_CONST float kShoulderStart = 0.6f;     // below this the filmic curve is 
 KERNEL_CONST float kDesaturation = 0.15f;     // how fast an overexposed colour turns white
 KERNEL_CONST float kDisplayableLimit = 1e6f;  // keeps the curve's arithmetic finite
 
-// Identity up to kShoulderStart, then an exponential approach to 1 with the same value and slope where they meet.
+// Identity up to kShoulderStart, then an exponential approach to 1 with matching value and slope.
 KERNEL_FN float filmicShoulder(float value) {
     if (value <= kShoulderStart) return value;
     const float room = 1.0f - kShoulderStart;
     return 1.0f - room * exp((kShoulderStart - value) / room);
 }
 
-// The curve acts on the largest component and scales the others with it, so hues hold (a curve per channel turns
-// orange yellow). What the curve takes away is given back as white: bright lights bleach as they do on film.
+// The curve acts on the largest component and scales the others with it, which preserves hue (a curve per channel turns
+// orange yellow). What the curve removes is added back as white: bright lights desaturate as on film.
 KERNEL_FN vec3 filmicCurve(vec3 v) {
     const float peak = max(v.x, max(v.y, v.z));
     if (peak <= kShoulderStart) return v;
@@ -27,7 +27,7 @@ KERNEL_FN vec3 filmicCurve(vec3 v) {
     return mix(v * (mapped / peak), vec3(mapped), white);
 }
 
-// Not a number becomes black.
+// NaN becomes black.
 KERNEL_FN float displayable(float v) {
     return v > 0.0f ? min(v, kDisplayableLimit) : 0.0f;
 }
@@ -41,9 +41,9 @@ KERNEL_FN vec3 toneMap(vec3 linear, float exposure, bool filmic) {
     return vec3(encodeSrgb(v.x), encodeSrgb(v.y), encodeSrgb(v.z));
 }
 
-// What is added to a value in steps of an 8-bit display before it is rounded down, 1/128..127/128: the 8 x 8 matrix of
-// Bayer ("An optimum method for two-level rendition of continuous-tone pictures", 1973), each of its 64 levels once.
-// Kept half a level away from 0 and 1, so that a value on a step stays there whatever the rounding before. x, y >= 0.
+// Added to a value in 8-bit steps before rounding down, 1/128..127/128: the 8 x 8 matrix of Bayer ("An optimum method
+// for two-level rendition of continuous-tone pictures", 1973), each of its 64 levels once. Half a level away from 0 and
+// 1, so that a value on a step stays there whatever the rounding before. x, y >= 0.
 KERNEL_FN float ditherThreshold(int x, int y) {
     const int odd = x ^ y;
     const int level =
@@ -51,7 +51,7 @@ KERNEL_FN float ditherThreshold(int x, int y) {
     return (float(level) + 0.5f) / 64.0f;
 }
 
-// The 8-bit codes of pixel (x, y), with or without that.
+// The 8-bit codes of pixel (x, y), with or without dithering.
 KERNEL_FN uvec3 displayCodes(vec3 display, bool dither, int x, int y) {
     const float threshold = dither ? ditherThreshold(x, y) : 0.5f;
     return uvec3(display * 255.0f + vec3(threshold));

@@ -9,15 +9,15 @@
 
 KERNELS_BEGIN
 
-// Below this, a mirror is indistinguishable from a delta and float cannot hold its density.
+// Below this, the lobe is indistinguishable from a delta and float cannot hold its density.
 KERNEL_CONST float kMinAlpha = 1e-3f;
 
 struct Bsdf {
     vec3 diffuse;      // c_diff of B.3.5
     vec3 f0;           // reflectance at normal incidence
     float alpha;       // roughness^2
-    float specular;    // 1; 0 takes the coat away
-    float minDiffuse;  // least probability with which sampling picks the cosine lobe
+    float specular;    // 1; 0 removes the coat
+    float minDiffuse;  // minimum probability of sampling the cosine lobe
 };
 
 // Appendix B.3.5. With `diffuseOnly` the material is Lambert with the base colour as its albedo, metal or not.
@@ -60,7 +60,7 @@ KERNEL_FN float ggxVisibility(float cosO, float cosI, float alpha) {
     return g2 / (4.0f * cosO * cosI);
 }
 
-// The two lobes apart, each times the cosine of wi: white-furnace tests look at them one by one.
+// The two lobes separately, each times the cosine of wi, for white-furnace tests.
 KERNEL_FN void evalLobes(Bsdf b, vec3 wo, vec3 wi, OUT(vec3) diffuse, OUT(vec3) specular) {
     diffuse = vec3(0.0f);
     specular = vec3(0.0f);
@@ -81,7 +81,7 @@ KERNEL_FN vec3 evalBsdf(Bsdf b, vec3 wo, vec3 wi) {
     return diffuse + specular;
 }
 
-// How often sampling picks the cosine lobe: by the energy that each lobe is likely to send, seen from wo.
+// Probability of sampling the cosine lobe, by the estimated energy of each lobe seen from wo.
 KERNEL_FN float diffuseProbability(Bsdf b, vec3 wo) {
     if (b.specular <= 0.0f) return 1.0f;
     const vec3 f = fresnelSchlick(b.f0, wo.z);
@@ -108,7 +108,7 @@ KERNEL_FN vec3 sampleGgxNormal(vec3 wo, float alpha, vec2 u) {
     return normalize(vec3(alpha * h.x, alpha * h.y, max(h.z, 1e-9f)));
 }
 
-// Density with which sampleBsdf makes wi; 0 below the surface.
+// Density of wi in sampleBsdf; 0 below the surface.
 KERNEL_FN float pdfBsdf(Bsdf b, vec3 wo, vec3 wi) {
     if (!(wo.z > 0.0f) || !(wi.z > 0.0f)) return 0.0f;
     const float p = diffuseProbability(b, wo);
@@ -116,8 +116,7 @@ KERNEL_FN float pdfBsdf(Bsdf b, vec3 wo, vec3 wi) {
     return p < 1.0f ? diffuse + (1.0f - p) * pdfGgx(wo, wi, b.alpha) : diffuse;
 }
 
-// A direction wi; wi.z <= 0 means that the light went into the surface and the path ends. `lobe` is a third random
-// number.
+// A direction wi; wi.z <= 0 means that wi points into the surface and the path ends. `lobe` is a third random number.
 KERNEL_FN vec3 sampleBsdf(Bsdf b, vec3 wo, vec2 u, float lobe) {
     if (lobe < diffuseProbability(b, wo)) return sampleCosineHemisphere(u);
     const vec3 h = sampleGgxNormal(wo, b.alpha, u);

@@ -1,4 +1,4 @@
-// What a hit looks like to light: the frame of its normals, normal mapping, and the material's factors times texels.
+// Surface properties at a hit: normals, normal mapping, and the material's factors times texels.
 #ifndef PROBEGI_KERNELS_SURFACE_H
 #define PROBEGI_KERNELS_SURFACE_H
 
@@ -6,7 +6,7 @@
 
 KERNELS_BEGIN
 
-// Least cosine between the shading normal and the direction to the ray's origin.
+// Minimum cosine between the shading normal and the direction to the ray's origin.
 KERNEL_CONST float kLeastCosine = 1e-3f;
 
 KERNEL_FN vec3 unitOr(vec3 v, vec3 fallback) {
@@ -27,8 +27,8 @@ KERNEL_FN vec4 interpolate(vec4 a, vec4 b, vec4 c, vec2 barycentric) {
     return (1.0f - barycentric.x - barycentric.y) * a + barycentric.x * b + barycentric.y * c;
 }
 
-// Tangent along the uvs' u direction, w = side of the bitangent; zero where the uvs are degenerate. Edges from the
-// first corner to the others, in space and in the texture.
+// Tangent along u, w = side of the bitangent; zero if the uvs are degenerate. Edges are from the first corner to the
+// others, in space and in uv.
 KERNEL_FN vec4 tangentFromUvs(vec3 edge1, vec3 edge2, vec2 uvEdge1, vec2 uvEdge2) {
     const float area = uvEdge1.x * uvEdge2.y - uvEdge2.x * uvEdge1.y;
     // glTF's v axis points down in the image while the bitangent points up in it, hence the opposite sign.
@@ -46,7 +46,7 @@ KERNEL_FN vec3 mapNormal(vec3 texel, float scale, vec4 tangent, vec3 normal) {
     return unitOr((local.x * scale) * t + (local.y * scale) * bitangent + local.z * normal, normal);
 }
 
-// A normal that faces the ray's origin: where it does not, the least amount of the direction to the origin is added.
+// Makes a normal face the ray's origin, by adding the least necessary amount of the direction to the origin.
 KERNEL_FN vec3 bendTowards(vec3 normal, vec3 toOrigin) {
     const float cosine = dot(normal, toOrigin);
     if (cosine >= kLeastCosine) return normal;
@@ -81,12 +81,12 @@ KERNEL_FN FrontNormals frontNormals(vec3 edgeCross, vec3 interpolated, vec3 toOr
     return n;
 }
 
-// Whether the ray meets the back.
+// Whether the ray hits the back.
 KERNEL_FN bool meetsBack(FrontNormals n, vec3 direction) {
     return dot(n.geometric, direction) > 0.0f;
 }
 
-// The normals on the side of the ray's origin. A shading normal that would still face away is bent to just above
+// The normals flipped to the side of the ray's origin. A shading normal that still faces away is bent to just above
 // grazing, so that every BSDF is defined.
 KERNEL_FN FrontNormals facingNormals(FrontNormals n, vec3 direction) {
     const bool away = meetsBack(n, direction);

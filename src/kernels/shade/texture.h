@@ -1,5 +1,5 @@
-// Texture look-ups: uv transform, wrapping, bilinear filtering of decoded values, and the mip level that a ray's cone
-// asks for. Texel (0, 0) is the top left one, where glTF's uv origin is.
+// Texture look-ups: uv transform, wrapping, bilinear filtering of decoded values, and the mip level for a ray's cone.
+// Texel (0, 0) is the top left one, as glTF's uv origin.
 #ifndef PROBEGI_KERNELS_TEXTURE_H
 #define PROBEGI_KERNELS_TEXTURE_H
 
@@ -7,12 +7,12 @@
 
 KERNELS_BEGIN
 
-// The order of probegi::Wrap.
+// In the order of probegi::Wrap.
 KERNEL_CONST int kWrapRepeat = 0;
 KERNEL_CONST int kWrapClampToEdge = 1;
 KERNEL_CONST int kWrapMirroredRepeat = 2;
 
-// KHR_texture_transform: the upper two rows of its matrix on (u, v, 1). What is not finite becomes 0.
+// KHR_texture_transform: the upper two rows of its matrix on (u, v, 1). Non-finite results become 0.
 KERNEL_FN vec2 transformUv(vec3 rowU, vec3 rowV, vec2 uv) {
     vec2 at = vec2(rowU.x * uv.x + rowU.y * uv.y + rowU.z, rowV.x * uv.x + rowV.y * uv.y + rowV.z);
     if (!(abs(at.x) < 3e38f)) at.x = 0.0f;
@@ -89,14 +89,14 @@ KERNEL_FN int mipOffset(int width, int height, int level) {
     return offset;
 }
 
-// Least cosine between a surface and a ray that its footprint is stretched by.
+// Minimum cosine by which a ray's footprint is stretched.
 KERNEL_CONST float kLeastFootprintCosine = 0.01f;
 
-// How wide a cone of `spread` radians is where it meets a surface after `distance` metres: the geometric mean of the
-// ellipse's two axes. Akenine-Moller et al., "Texture level of detail strategies for real-time ray tracing" (Ray
-// Tracing Gems, chapter 20, 2019), section 20.3.4, take the longer axis. That blurs what is seen at an angle: against
-// the path tracer's base colours, 2 x 2 rays a pixel, the root mean square error of Sponza is 0.0161 with the mean,
-// 0.0194 with the longer axis and 0.0204 without any filter; of the built-in atrium 0.0132, 0.0163 and 0.0141.
+// Width of a cone of `spread` radians where it hits a surface after `distance` metres: the geometric mean of the
+// ellipse's axes. Akenine-Moller et al., "Texture level of detail strategies for real-time ray tracing" (Ray Tracing
+// Gems, chapter 20, 2019), section 20.3.4, take the longer axis, which overblurs at grazing angles: against the path
+// tracer's base colours, 2 x 2 rays a pixel, the root mean square error of Sponza is 0.0161 with the mean, 0.0194 with
+// the longer axis and 0.0204 without any filter; of the built-in atrium 0.0132, 0.0163 and 0.0141.
 KERNEL_FN float coneFootprint(float spread, float distance, float cosine) {
     return spread * distance / sqrt(max(abs(cosine), kLeastFootprintCosine));
 }
@@ -108,13 +108,13 @@ KERNEL_FN float uvArea(vec2 a, vec2 b, vec2 c) {
     return abs(p.x * q.y - p.y * q.x);
 }
 
-// Texels of the image's level 0 to an area of 1 before the uv transform.
+// Level 0 texels per unit area of uv before the uv transform.
 KERNEL_FN float texelsPerUvArea(vec3 rowU, vec3 rowV, int width, int height) {
     return abs(rowU.x * rowV.y - rowU.y * rowV.x) * (float(width) * float(height));
 }
 
-// The level on which a footprint of `metres` is one texel wide (section 20.3.1, eq. 20.2 there), fractional, at least 0
-// and below `levels`. `texels` and `area` belong to the same triangle: texels of level 0, and square metres.
+// The fractional level at which a footprint of `metres` is one texel wide (ibid., section 20.3.1, eq. 20.2), at least 0
+// and below `levels`. `texels` and `area` are of the same triangle: level 0 texels, and square metres.
 KERNEL_FN float footprintLevel(float metres, float texels, float area, int levels) {
     const float wide = metres * sqrt(texels / max(area, 1e-30f));
     return wide > 1.0f ? min(log2(wide), float(levels - 1)) : 0.0f;

@@ -12,9 +12,9 @@ KERNELS_BEGIN
 struct BvhNode {
     vec3 origin;     // lower corner of the node's box
     uint exponents;  // bytes 0..2: e + 127 for x, y, z; byte 3: a bit for each slot that holds an inner node
-    uint children;   // the first inner child; the others follow in the order of their slots
+    uint children;   // the first inner child; the others follow in slot order
     uint leaves;     // the first triangle (in a top level: instance) of the leaves; the others follow
-    uvec2 meta;      // what stands in a slot, see below
+    uvec2 meta;      // contents of each slot, see below
     uvec2 lowerX;
     uvec2 lowerY;
     uvec2 lowerZ;
@@ -23,20 +23,20 @@ struct BvhNode {
     uvec2 upperZ;
 };
 
-// meta (the paper's section 3.1): its low five bits say where the child's first bit stands in the word of hits, its
-// high three bits are the bits to be set there. An inner node in slot s: 1 at 24 + s. A leaf of n <= 3 triangles: n
-// ones at the number of its first triangle, counted from `leaves`, 0..23. An empty slot: 0.
+// meta (the paper's section 3.1): the low five bits are the position of the child's first bit in the hit word, the high
+// three bits are the bits to set there. An inner node in slot s: 1 at 24 + s. A leaf of n <= 3 triangles: n ones at the
+// number of its first triangle, counted from `leaves`, 0..23. An empty slot: 0.
 KERNEL_CONST uint kBvhInnerMeta = 0x38u;  // (1 << 5) + 24, plus s
 KERNEL_CONST uint kBvhLeafBits = 0x00ffffffu;
 KERNEL_CONST uint kBvhLeafSize = 3u;
 
-// What a ray brings to every node. Directions need not be of unit length: distances are multiples of them.
+// A ray with what every node test needs. Directions need not be unit; distances are multiples of their length.
 struct BvhRay {
     vec3 origin;
     vec3 inverse;  // 1 / direction, finite
-    vec3 shear;    // for triangle_hit.h: the direction's two other components over its largest, and 1 / the largest
+    vec3 shear;    // for triangle_hit.h: the direction's two smaller components over its largest, and 1 / the largest
     int axis;      // the largest component of the direction
-    uint octant;   // bit a is set where the direction's component a is not negative
+    uint octant;   // bit a is set if the direction's component a is not negative
 };
 
 // v with its components rotated so that `axis` comes last.
@@ -44,20 +44,20 @@ KERNEL_FN vec3 bvhRotate(vec3 v, int axis) {
     return axis == 0 ? vec3(v.y, v.z, v.x) : (axis == 1 ? vec3(v.z, v.x, v.y) : v);
 }
 
-// Neither infinite nor not-a-number. From the bits, since shader compilers may take such values for impossible.
+// Neither infinite nor NaN. Tested on the bits, since shader compilers may assume that such values do not occur.
 KERNEL_FN bool bvhIsFinite(float x) {
     return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u;
 }
 
-// Whether anything can be hit: all finite, some direction, an interval. `far` may be infinite.
+// Whether the ray can hit anything: all finite, a non-zero direction, a non-empty interval. `far` may be infinite.
 KERNEL_FN bool bvhRayIsValid(vec3 origin, float near, vec3 direction, float far) {
     const float largest = max(abs(direction.x), max(abs(direction.y), abs(direction.z)));
     return bvhIsFinite(origin.x) && bvhIsFinite(origin.y) && bvhIsFinite(origin.z) && bvhIsFinite(direction.x) &&
            bvhIsFinite(direction.y) && bvhIsFinite(direction.z) && bvhIsFinite(near) && largest > 0.0f && near <= far;
 }
 
-// The reciprocal of a component of a direction; one that vanishes beside the largest counts as tiny, so that no box
-// test multiplies 0 by infinity.
+// Reciprocal of a direction's component; one that is negligible beside the largest counts as tiny, so that no box test
+// multiplies 0 by infinity.
 KERNEL_FN float bvhInverse(float component, float largest) {
     const float tiny = 1e-18f * largest;
     return 1.0f / (abs(component) > tiny ? component : (component < 0.0f ? -tiny : tiny));
@@ -78,14 +78,14 @@ KERNEL_FN BvhRay makeBvhRay(vec3 origin, vec3 direction) {
     return ray;
 }
 
-// Box tests must never miss what is there. Ize 2013 ("Robust BVH Ray Traversal") widens the far distance by a relative
-// 2 ulp, which is enough where a plane minus the origin is one rounding. A quantised plane's distance is a sum,
-// (node's origin - ray's origin) / direction + q 2^e / direction, that may cancel: its error is relative to the terms.
-// Each of the few roundings (a GPU's division has 2.5 units) is at most 2^-24 of them; this is 16.
+// Box tests must be conservative. Ize 2013 ("Robust BVH Ray Traversal") widens the far distance by a relative 2 ulp,
+// which suffices if plane minus origin is a single rounding. A quantised plane's distance is a sum,
+// (node's origin - ray's origin) / direction + q 2^e / direction, that may cancel, so its error is relative to its
+// terms. Each of the few roundings (a GPU's division has 2.5 ulp) is at most 2^-24 of them; this is 16 times that.
 KERNEL_CONST float kBvhPadding = 9.5367432e-7f;
 
-// The bits of hits that four children, one a byte, contribute. `scale` and `enter`, `leave`: distances of a
-// quantisation step and of plane 0.
+// Hit bits of four children, one per byte. `scale`: distance of a quantisation step; `enter`, `leave`: distances of
+// plane 0.
 KERNEL_FN uint bvhFourChildren(uint meta, uint octant, uvec3 nearPlanes, uvec3 farPlanes, vec3 scale, vec3 enter,
                                vec3 leave, float near, float far) {
     uint hits = 0u;
@@ -105,9 +105,9 @@ KERNEL_FN uint bvhFourChildren(uint meta, uint octant, uvec3 nearPlanes, uvec3 f
     return hits;
 }
 
-// Which children the ray meets between near and far, in one word: bits 24..31 are inner nodes, the one to be visited
-// first highest: slot s stands at 24 + (s ^ octant), since the builder puts the child that lies towards -x -y -z in
-// slot 0 (the paper's section 3.2). Bits 0..23 are triangles, counted from `leaves`.
+// Which children the ray hits between near and far, in one word: bits 24..31 are inner nodes, the first to visit
+// highest: slot s is bit 24 + (s ^ octant), since the builder puts the child towards -x -y -z in slot 0 (the paper's
+// section 3.2). Bits 0..23 are triangles, counted from `leaves`.
 KERNEL_FN uint bvhNodeHits(BvhNode node, BvhRay ray, float near, float far) {
     const vec3 scale = ray.inverse * vec3(uintBitsToFloat((node.exponents & 255u) << 23u),
                                           uintBitsToFloat((node.exponents & 0xff00u) << 15u),

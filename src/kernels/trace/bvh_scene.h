@@ -1,5 +1,4 @@
-// What stands beside the nodes of the two-level BVH: triangles, instances, and the limits that builder and traversal
-// share.
+// The rest of the two-level BVH: triangles, instances, and the limits that builder and traversal share.
 #ifndef PROBEGI_KERNELS_BVH_SCENE_H
 #define PROBEGI_KERNELS_BVH_SCENE_H
 
@@ -17,9 +16,8 @@ struct BvhTriangle {
     int unused;
 };
 
-// 64 bytes. Maps the world to the group's space: x' = dot(row0.xyz, x - origin), and so on, where the group's origin
-// stands in the world at (row0.w, row1.w, row2.w). Subtracted first, since a sum of two far points forgets how near
-// they are to each other.
+// 64 bytes. Maps the world to the group's space: x' = dot(row0.xyz, x - origin), and so on, where the group's origin in
+// the world is (row0.w, row1.w, row2.w). It is subtracted first, to avoid cancellation far from the world's origin.
 struct BvhInstance {
     vec4 row0;
     vec4 row1;
@@ -33,8 +31,8 @@ struct BvhInstance {
 KERNEL_CONST uint kBvhNone = 0xffffffffu;
 KERNEL_CONST float kBvhMissDistance = 1e30f;
 
-// Levels of nodes in a tree over triangles and in one over instances. A node of level k has at most k - 1 entries below
-// it on the stack; an instance met in the last level of the upper tree adds one for its neighbours in the leaf.
+// Node levels in a tree over triangles and in one over instances. A node of level k has at most k - 1 stack entries
+// below it; an instance in the last level of the upper tree adds one for its siblings in the leaf.
 KERNEL_CONST int kBvhTriangleLevels = 24;
 KERNEL_CONST int kBvhInstanceLevels = 9;
 KERNEL_CONST int kBvhStackSize = kBvhTriangleLevels + kBvhInstanceLevels - 1;

@@ -1,17 +1,17 @@
 // Closest hit and occlusion over two levels of the wide BVH: triangles of the world itself, and instances of groups of
-// triangles below a tree of boxes. The traversal of Ylitie, Karras, Laine 2017, section 4, without what it does between
-// the lanes of a warp: the stack holds what is left of a node's hit children, one entry a level, and children come in
-// the order of the ray's octant, so nothing is sorted. (On Sponza, random rays: 8.7 nodes and 6.8 triangles a ray;
-// sorted by distance, with an entry a child on the stack, 6.7 and 3.9.) Without recursion; a stack of fixed size, which
-// the builder answers for.
+// triangles below a tree of boxes. The traversal of Ylitie, Karras, Laine 2017, section 4, without its warp-level
+// operations: the stack holds the remaining hit children of a node, one entry per level, and children are visited in
+// the order of the ray's octant, without sorting. (On Sponza, random rays: 8.7 nodes and 6.8 triangles per ray; sorted
+// by distance, with a stack entry per child, 6.7 and 3.9.) No recursion; the builder guarantees that the fixed-size
+// stack suffices.
 //
-// Whoever includes this defines before (KERNELS_BEGIN .. KERNELS_END, after including bvh_scene.h):
+// Define before including this (in KERNELS_BEGIN .. KERNELS_END, after bvh_scene.h):
 //     BvhNode bvhNode(uint index);
 //     BvhTriangle bvhTriangle(uint index);
 //     BvhInstance bvhInstance(uint index);
 //     // Whether a masked triangle is solid at a point of it. `instance` is BvhInstance::number, or -1.
 //     bool bvhAlphaPasses(int instance, int primitive, vec2 barycentric);
-// All trees share one array of nodes and one of triangles. In C++ one source file of a program may include this.
+// All trees share one array of nodes and one of triangles. In C++, only one source file of a program may include this.
 #ifndef PROBEGI_KERNELS_BVH_TRAVERSE_H
 #define PROBEGI_KERNELS_BVH_TRAVERSE_H
 
@@ -23,16 +23,16 @@ struct BvhHit {
     float distance;    // in lengths of the ray's direction; kBvhMissDistance where nothing was hit
     int primitive;     // -1: nothing was hit
     int geometry;      // 0: opaque, 1: masked
-    int instance;      // -1: of the world
+    int instance;      // -1: the world
     vec2 barycentric;  // weights of the second and third corner
 };
 
-// Both levels' entries: a tree's root as a group of one child that is hit.
+// Entry of either level: a tree's root as a group with one hit child.
 KERNEL_FN uvec2 bvhRootGroup(uint root) {
     return uvec2(root, 0x80000000u);
 }
 
-// Which node a group visits next: the highest bit's.
+// The node that a group visits next: that of the highest bit.
 KERNEL_FN uint bvhNextChild(INOUT(uvec2) group, uint octant) {
     const uint bit = uint(findMSB(group.y));
     const uint slot = (bit - 24u) ^ octant;
@@ -40,7 +40,7 @@ KERNEL_FN uint bvhNextChild(INOUT(uvec2) group, uint octant) {
     return group.x + uint(bitCount(group.y & ((1u << slot) - 1u)));
 }
 
-// Takes the triangles of `bits`, counted from `first`, into account; true where the traversal is over.
+// Tests the triangles of `bits`, counted from `first`; true if the traversal is finished.
 KERNEL_FN bool bvhLeafTriangles(BvhRay ray, float near, uint first, uint bits, int instance, bool any,
                                 INOUT(BvhHit) hit) {
     while (bits != 0u) {
@@ -62,8 +62,8 @@ KERNEL_FN bool bvhLeafTriangles(BvhRay ray, float near, uint first, uint bits, i
 }
 
 // `worldRoot`: of the triangles in world space; `instancesRoot`: of the tree over instances; either may be kBvhNone.
-// `any`: the first hit will do. The world's triangles come first: they are most of what there is, and what they hit
-// hides instances behind.
+// `any`: any hit will do. The world's triangles, usually the majority, come first: their hits cull the instances behind
+// them.
 KERNEL_FN BvhHit bvhTraverse(vec3 origin, float near, vec3 direction, float far, uint worldRoot, uint instancesRoot,
                              bool any) {
     BvhHit hit;
@@ -74,7 +74,7 @@ KERNEL_FN BvhHit bvhTraverse(vec3 origin, float near, vec3 direction, float far,
     hit.barycentric = vec2(0.0f, 0.0f);
 
     // A group is a base and bits: nodes (bits 24..31 hit, 0..7 which slots hold inner nodes), or, without bits 24..31,
-    // leaves. Of the stack's entries those from `floorSize` upwards belong to the current bottom level.
+    // leaves. Stack entries from `floorSize` up belong to the current bottom level.
     uvec2 stack[kBvhStackSize];
     int size = 0;
     int floorSize = 0;

@@ -1,7 +1,7 @@
 // Directions of the update rays: a spherical Fibonacci set (Marques et al. 2013), shared by all probes of a volume. The
-// DDGI paper (section 2.3) turns it at random in every frame. By measurement it is better shifted: then the sets of
-// many frames fill each other's gaps, and their average is nearly that of one set of so many rays, while the noise of
-// independent sets falls like the square root of their number only.
+// DDGI paper (section 2.3) rotates it at random in every frame. Shifting it measured better: the sets of many frames
+// then fill each other's gaps, and their average is nearly that of one set of that many rays, while the noise of
+// independent sets falls only with the square root of their number.
 #ifndef PROBEGI_KERNELS_RAY_SET_H
 #define PROBEGI_KERNELS_RAY_SET_H
 
@@ -11,8 +11,8 @@ KERNELS_BEGIN
 
 KERNEL_CONST float kUnitOf24Bits = 1.0f / 16777216.0f;
 
-// The turn from the first direction to number `index`, modulo one: 0..1. The product with the golden ratio's reciprocal
-// is taken in 32-bit fixed point, which is exact modulo one turn.
+// Azimuth of direction `index` in turns, modulo one: 0..1. The product with the golden ratio's reciprocal is in 32-bit
+// fixed point, which is exact modulo one turn.
 KERNEL_FN float fibonacciTurn(uint index) {
     return float((index * 2654435769u) >> 8u) * kUnitOf24Bits;
 }
@@ -32,16 +32,16 @@ KERNEL_FN vec3 shiftedFibonacci(uint index, uint count, vec2 shift) {
     return vec3(cos(phi) * sinTheta, sin(phi) * sinTheta, cosTheta);
 }
 
-// The set as it is published.
+// The set as published.
 KERNEL_FN vec3 sphericalFibonacci(uint index, uint count) {
     return shiftedFibonacci(index, count, vec2(0.5f, 0.0f));
 }
 
-// The shift of frame `frame` of a volume with seed `seed`, for a set of `count`. On the cylinder of cos(theta) and phi,
-// which keeps areas, the set is a lattice: shifts that are spread evenly over one of its cells sweep the sphere evenly.
-// The cell's sides are steps by two neighbouring Fibonacci numbers of rays, which lead to the nearest directions at the
-// equator; where in the cell follows a Kronecker sequence with the powers of the plastic number (Roberts' R2) from a
-// random start. All modulo 1, in 32-bit fixed point.
+// The shift of frame `frame` of a volume with seed `seed`, for a set of `count`. On the equal-area cylinder of
+// cos(theta) and phi, the set is a lattice: shifts that are uniform over one of its cells cover the sphere uniformly.
+// The cell's sides are steps by two consecutive Fibonacci numbers of rays, which lead to the nearest directions at the
+// equator; the position in the cell follows a Kronecker sequence with the powers of the plastic number (Roberts' R2)
+// from a random start. All modulo 1, in 32-bit fixed point.
 KERNEL_FN vec2 frameShift(uint seed, uint frame, uint count) {
     const uint state = hashCombine(hashUint(seed), 0x2545f491u);
     const uint a = (hashUint(state) + frame * 3242174889u) >> 8u;

@@ -14,19 +14,19 @@ namespace {
 
 constexpr float kPi = glm::pi<float>();
 
-// Plan: the arcades stand on a rectangle of kLong x kShort bays around the court; behind them run aisles.
+// Plan: arcades on a rectangle of kLong x kShort bays around the court, with aisles behind them.
 constexpr float kBay = 3.0f;
 constexpr int kLong = 8, kShort = 3;
 constexpr float kArcadeX = 0.5f * kBay * kLong, kArcadeZ = 0.5f * kBay * kShort;
 constexpr float kAisle = 3.4f;
 constexpr float kWallX = kArcadeX + kAisle, kWallZ = kArcadeZ + kAisle;
 constexpr float kWall = 0.6f;   ///< thickness of the outer walls
-constexpr float kEdge = 0.42f;  ///< the floors project so far beyond the arcades' middle
+constexpr float kEdge = 0.42f;  ///< projection of the floors beyond the arcades' centre line
 
 // Section.
 constexpr float kAisleFloor = 0.15f, kLowerSpring = 3.4f, kGallery = 5.2f, kUpperSpring = 8.0f, kRoof = 9.7f,
                 kTop = 10.3f;
-/// Half a millimetre below pieces that stand on a floor: see block() in cornell.cpp.
+/// Half a millimetre below pieces on a floor: see block() in cornell.cpp.
 constexpr float kGap = 0.0005f;
 
 struct Materials {
@@ -104,7 +104,7 @@ void dressWalls(BoxSolid& solid, const Materials& m, float floor, float ceiling)
     }
 }
 
-/// Everything with right angles, as one closed surface: walls, floors, cornices, niches.
+/// All rectangular parts as one closed surface: walls, floors, cornices, niches.
 Mesh shell(const Materials& m) {
     BoxSolid solid;
     const glm::vec2 inside(kWallX, kWallZ), outside(kWallX + kWall, kWallZ + kWall);
@@ -146,7 +146,8 @@ struct Storey {
 constexpr Storey kLower{kAisleFloor, kLowerSpring, kGallery - 0.1f, 1.16f, {kLowerSpring - kAisleFloor, 0.25f, 20, 5}};
 constexpr Storey kUpper{kGallery, kUpperSpring, kRoof + 0.1f, 1.22f, {kUpperSpring - kGallery, 0.185f, 16, 4}};
 
-/// Calls visit(position, yaw) for each of the four sides: the arcade's left end as seen from the court, and its turn.
+/// Calls visit(position, yaw) for each of the four sides: the arcade's left end as seen from the court, and its
+/// rotation.
 template <class Visit>
 void forEachSide(const Visit& visit) {
     visit(glm::vec3(-kArcadeX, 0, -kArcadeZ), 0.0f, kLong);
@@ -282,8 +283,8 @@ void addMonuments(Scene& scene, const Materials& m) {
 
 }  // namespace
 
-/// A two-storey colonnade around a court that is open to the sky. The sun stands high and a little to one side: it
-/// lights half of the court's floor and one arcade; everything else is lit by what these send on.
+/// A two-storey colonnade around a court that is open to the sky. The sun is high and slightly to one side: it lights
+/// half of the court's floor and one arcade; everything else is lit indirectly.
 Result<Scene> makeAtrium(const BuiltinParams&) {
     Scene scene;
     scene.name = "atrium";

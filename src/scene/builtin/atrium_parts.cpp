@@ -17,7 +17,7 @@ namespace {
 constexpr float kPi = glm::pi<float>();
 constexpr float kTau = glm::two_pi<float>();
 
-/// Half a circle of a moulding that bulges outwards by `bulge` between two heights, with sharp edges at both.
+/// A half-round moulding that bulges outwards by `bulge` between two heights, with sharp edges at both.
 void addTorus(std::vector<glm::vec2>& profile, float radius, float y0, float y1, float bulge, int steps) {
     for (int i = 0; i <= steps; ++i) {
         const float t = float(i) / float(steps);
@@ -27,12 +27,12 @@ void addTorus(std::vector<glm::vec2>& profile, float radius, float y0, float y1,
     }
 }
 
-/// Where a shape ends or bends sharply, the point is given twice (see addLathe).
+/// At ends and sharp edges the point is given twice (see addLathe).
 void addEdge(std::vector<glm::vec2>& profile, float radius, float y) {
     profile.insert(profile.end(), 2, glm::vec2(radius, y));
 }
 
-/// A fluted shaft tapers by a sixth, with a slight belly (entasis).
+/// A fluted shaft that tapers by a sixth, with entasis.
 std::vector<glm::vec2> shaftProfile(const Column& c, float bottom, float top) {
     constexpr int kRings = 12;
     std::vector<glm::vec2> profile{{0, bottom}};
@@ -141,7 +141,7 @@ void addBalustrade(MeshBuilder& out, float length, float height, int balusters) 
 
 void addCurtain(MeshBuilder& out, float width, float drop, int folds, float gather) {
     addSheet(out, 9 * folds, 28, {1, drop / width}, [=](float u, float v) {
-        // Folds wander a little, deepen downwards, and flatten where a band pulls the cloth together.
+        // Folds vary slightly, deepen downwards, and flatten where a band gathers the cloth.
         const float waist = gather * std::exp(-40 * (v - 0.62f) * (v - 0.62f));
         const float x = (u - 0.5f) * width * (1 - waist) + 0.5f * width * waist * 0.4f;
         const float wander = 0.5f * std::sin(3.1f * u + 2.0f * v) + 0.25f * std::sin(7 * u - 3 * v);
@@ -172,7 +172,7 @@ void addThrow(MeshBuilder& out, float width, float drop) {
     };
     addSheet(out, 36, 56, {1, length / width}, [=](float u, float v) {
         const float s = v * length;
-        // Cloth does not crease: a mean over a hand's breadth rounds the path's corners.
+        // Averaging over a hand's breadth rounds the path's corners, since cloth does not crease.
         const glm::vec2 p = 0.25f * (onPath(s - 0.03f) + onPath(s - 0.01f) + onPath(s + 0.01f) + onPath(s + 0.03f));
         const float free = std::clamp((s - along[4]) / 0.5f, 0.0f, 1.0f) * (0.35f + 0.65f * v);
         const float fold = std::sin(11 * u + 0.7f * s) + 0.5f * std::sin(23 * u - 0.5f * s + 1) + 1.2f;

@@ -2,8 +2,8 @@
 
 #include "scene/builtin/mesh_builder.h"
 
-/// The pieces that the atrium is put together from. Each stands on y = 0, centred on the vertical axis, in metres, and
-/// is closed unless it says otherwise.
+/// Parts of the atrium. Each stands on y = 0, centred on the vertical axis, in metres, and is closed unless stated
+/// otherwise.
 namespace probegi::builtin {
 
 struct Column {
@@ -18,10 +18,10 @@ void addColumn(MeshBuilder& out, const Column& column);
 /// A row of balusters along X between a plinth and a handrail, `length` metres from end to end.
 void addBalustrade(MeshBuilder& out, float length, float height, int balusters);
 
-/// A curtain gathered on its rod at y = 0 and hanging down in folds; a sheet. `gather` 0..1 narrows its middle.
+/// A curtain hanging in folds from its rod at y = 0; a sheet. `gather` 0..1 narrows its middle.
 void addCurtain(MeshBuilder& out, float width, float drop, int folds, float gather);
-/// A cloth thrown over a rail that runs along X with its top at y = 0: falls behind it on -Z, on +Z down to a ledge
-/// 0.97 m below and from its edge, 0.42 m out, `drop` metres further; a sheet.
+/// A cloth over a rail along X with its top at y = 0: it hangs behind the rail on -Z, and on +Z falls to a ledge 0.97 m
+/// below, across it to its edge 0.42 m out, and `drop` metres further; a sheet.
 void addThrow(MeshBuilder& out, float width, float drop);
 
 void addPot(MeshBuilder& out, float radius, float height);

@@ -17,7 +17,7 @@ glm::vec3 snap(glm::vec3 v) {
     return {snap(v.x), snap(v.y), snap(v.z)};
 }
 
-/// The boxes' coordinates cut space into cells that are wholly solid or wholly empty.
+/// The boxes' coordinates divide space into cells that are entirely solid or empty.
 class Cells {
 public:
     struct Cell {
@@ -124,7 +124,7 @@ Mesh BoxSolid::build(std::string name) const {
             const Cells::Cell neighbour = cells.get(n);
             if (neighbour.material >= 0) continue;
             int material = cell.material;
-            // The space's paint, unless the wall was put there later.
+            // The space's paint, unless the wall was added later.
             if (neighbour.step > cell.step) {
                 const int painted = m_steps[std::size_t(neighbour.step)].paint.byNormal[std::size_t(side)];
                 if (painted >= 0) material = painted;

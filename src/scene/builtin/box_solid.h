@@ -9,7 +9,7 @@
 
 namespace probegi::builtin {
 
-/// Materials of the surfaces that an empty space shows, by the direction of their normal; -1: that of the solid.
+/// Materials of the surfaces around an empty space, by the direction of their normal; -1: that of the solid.
 struct Paint {
     std::array<int, 6> byNormal{-1, -1, -1, -1, -1, -1};  ///< +x -x +y -y +z -z
 
@@ -17,10 +17,10 @@ struct Paint {
     static Paint all(int material) { return room(material, material, material); }
 };
 
-/// Architecture as a union of axis-aligned boxes with others carved out, in the order of the calls. The result is the
-/// boundary of the union: one closed surface without inner faces, gaps or T-junctions, whatever the boxes' overlaps. A
-/// face between wall and empty space shows the paint of the space or, where that was made earlier, the wall's own
-/// material. Coordinates are rounded to 0.1 mm.
+/// Architecture as a union of axis-aligned boxes with others carved out, in call order. The result is the boundary: one
+/// closed surface without inner faces, gaps or T-junctions, however the boxes overlap. A face between wall and empty
+/// space gets the paint of the space or, if the wall is newer, the wall's own material. Coordinates are rounded to 0.1
+/// mm.
 class BoxSolid {
 public:
     void fill(glm::vec3 lower, glm::vec3 upper, int material);

@@ -8,8 +8,8 @@ namespace probegi::builtin {
 
 namespace {
 
-/// A block with the given corners on the floor, counter-clockwise seen from above. It floats half a millimetre, so that
-/// rays from inside it meet its own underside and not the floor's front.
+/// A block with the given corners on the floor, counter-clockwise from above. It floats half a millimetre, so that rays
+/// from inside hit its own underside, not the floor's front.
 Mesh block(const char* name, int material, const std::array<glm::vec2, 4>& corners, float height) {
     constexpr float kGap = 0.0005f;
     MeshBuilder out(material);
@@ -27,8 +27,8 @@ Mesh block(const char* name, int material, const std::array<glm::vec2, 4>& corne
 
 }  // namespace
 
-/// The box that Cornell University measured, ten times its size: 5.5 m a side. The picture is seen along -Z, so the
-/// measured z axis, which points into the box, is turned round.
+/// The box that Cornell University measured, scaled by ten: 5.5 m a side. The camera looks along -Z, so the measured z
+/// axis, which points into the box, is reversed.
 Result<Scene> makeCornell(const BuiltinParams&) {
     Scene scene;
     scene.name = "cornell";
@@ -46,14 +46,14 @@ Result<Scene> makeCornell(const BuiltinParams&) {
     box.carve({0, 0, -kDepth}, {kWidth, kHeight, kWall}, paint);
     place(scene, addMesh(scene, box.build("walls")));
 
-    // The measured corners, turned by 180 degrees about the vertical: red stays on the left of the picture.
+    // The measured corners, rotated by 180 degrees about the vertical: red stays on the left of the picture.
     const auto xz = [](float x, float z) { return glm::vec2(kWidth - x, -z); };
     const std::array shortBlock{xz(1.30f, 0.65f), xz(0.82f, 2.25f), xz(2.40f, 2.72f), xz(2.90f, 1.14f)};
     place(scene, addMesh(scene, block("short block", white, shortBlock, 1.65f)));
     const std::array tallBlock{xz(4.23f, 2.47f), xz(2.65f, 2.96f), xz(3.14f, 4.56f), xz(4.72f, 4.06f)};
     place(scene, addMesh(scene, block("tall block", white, tallBlock, 3.30f)));
 
-    // A slab that sticks out of the ceiling by a centimetre; only its underside glows.
+    // A slab that protrudes from the ceiling by a centimetre; only its underside glows.
     constexpr glm::vec3 kLower(kWidth - 3.43f, kHeight - 0.01f, -3.32f),
         kUpper(kWidth - 2.13f, kHeight + 0.05f, -2.27f);
     BoxSolid panel;

@@ -5,7 +5,7 @@
 namespace probegi::builtin {
 
 /// 4 x 3 x 4 m, every wall with the same albedo a and emission Le, so that E = pi Le / (1 - a) at every point inside
-/// and for every normal. The walls are sheets whose fronts look inwards: there is nothing outside.
+/// and for every normal. The walls are sheets that face inwards; there is nothing outside.
 Result<Scene> makeFurnace(const BuiltinParams& params) {
     if (auto r = requireWithin("albedo", params.albedo, 0, 0.99f); !r) return r.error();
     if (auto r = requirePositive("emission", params.emission); !r) return r.error();
@@ -16,7 +16,7 @@ Result<Scene> makeFurnace(const BuiltinParams& params) {
 
     MeshBuilder box(wall);
     const glm::vec3 lo(-2, 0, -2), hi(2, 3, 2);
-    // A box inside out.
+    // An inverted box.
     box.quad({hi.x, hi.y, hi.z}, {hi.x, hi.y, lo.z}, {hi.x, lo.y, lo.z}, {hi.x, lo.y, hi.z});
     box.quad({lo.x, hi.y, lo.z}, {lo.x, hi.y, hi.z}, {lo.x, lo.y, hi.z}, {lo.x, lo.y, lo.z});
     box.quad({lo.x, hi.y, lo.z}, {hi.x, hi.y, lo.z}, {hi.x, hi.y, hi.z}, {lo.x, hi.y, hi.z});
@@ -25,7 +25,7 @@ Result<Scene> makeFurnace(const BuiltinParams& params) {
     box.quad({hi.x, hi.y, lo.z}, {lo.x, hi.y, lo.z}, {lo.x, lo.y, lo.z}, {hi.x, lo.y, lo.z});
     place(scene, addMesh(scene, "furnace", {std::move(box)}));
     addCamera(scene, "inside", {1.4f, 1.6f, 1.5f}, {-1, 1.3f, -1}, 60);
-    // The radiance that leaves every wall is Le / (1 - a): shown as a middle grey.
+    // Every wall's outgoing radiance is Le / (1 - a): shown as middle grey.
     scene.exposure = 0.5f * (1 - params.albedo) / params.emission;
     return scene;
 }

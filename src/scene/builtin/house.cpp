@@ -18,7 +18,7 @@ constexpr float kWidth = 13.0f, kDepth = 8.0f, kOuter = 0.3f;
 constexpr float kGround = 2.7f;                ///< ceiling of the ground floor
 constexpr float kUpper = 3.0f, kAttic = 5.6f;  ///< upper storey: floor and ceiling
 constexpr float kEaves = 5.9f;
-constexpr float kGap = 0.0005f;  ///< below what stands on a floor: see block() in cornell.cpp
+constexpr float kGap = 0.0005f;  ///< below objects on a floor: see block() in cornell.cpp
 
 // Stairs rise along -Z in the hall.
 constexpr int kSteps = 16;
@@ -103,12 +103,12 @@ void carveDoors(BoxSolid& s, const Materials& m) {
     s.carve({kStairX0, kGround, kStairZ0}, {kStairX1, kUpper, kStairZ1}, Paint::all(m.white));
 }
 
-/// Carves a window and remembers its cross bars.
+/// Carves windows and collects their cross bars.
 class Windows {
 public:
     Windows(BoxSolid& solid, const Materials& m) : m_solid(solid), m_bars(m.frame), m_paint(Paint::all(m.frame)) {}
 
-    /// In a wall along X whose middle plane is z.
+    /// In a wall along X with centre plane z.
     void alongX(float x0, float x1, float y0, float y1, float z) { add({x0, y0, z}, {x1, y1, z}, 0); }
     void alongZ(float z0, float z1, float y0, float y1, float x) { add({x, y0, z0}, {x, y1, z1}, 2); }
     MeshBuilder takeBars() { return std::move(m_bars); }
@@ -124,7 +124,7 @@ private:
         m_bars.box(a - bar, b + bar);
         a = lower, b = upper;
         a.y = b.y = lower.y + 0.68f * (upper.y - lower.y);
-        // Thinner, so that no face coincides with one of the upright.
+        // Thinner, so that no face coincides with the upright bar's.
         bar[2 - axis] = 0.02f;
         m_bars.box(a - bar, b + bar);
     }
@@ -239,7 +239,7 @@ void furnishUpperFloor(Scene& scene, const Materials& m) {
 
 }  // namespace
 
-/// A house with nine rooms. Its windows and front door stand open; the sun comes in from +Z, the sky from everywhere.
+/// A house with nine rooms. Its windows and front door are open; the sun comes in from +Z, skylight from all sides.
 Result<Scene> makeHouse(const BuiltinParams&) {
     Scene scene;
     scene.name = "house";

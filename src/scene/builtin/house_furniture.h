@@ -2,7 +2,8 @@
 
 #include "probegi/scene.h"
 
-/// Furniture of closed solids. Each adds one mesh and returns its index; it stands on y = 0 with its back to -Z.
+/// Furniture made of closed solids. Each function adds one mesh and returns its index; it stands on y = 0 with its back
+/// to -Z.
 namespace probegi::builtin {
 
 int addTable(Scene& scene, int material, glm::vec3 size);

@@ -30,7 +30,7 @@ void MeshBuilder::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 }
 
 void MeshBuilder::face(std::span<const glm::vec3> corners) {
-    // Newell's sum is the normal even where the first corners lie on a line.
+    // Newell's sum gives the normal even if the first corners are collinear.
     glm::vec3 normal(0);
     for (std::size_t i = 0; i < corners.size(); ++i) {
         normal += glm::cross(corners[i] - corners[0], corners[(i + 1) % corners.size()] - corners[0]);

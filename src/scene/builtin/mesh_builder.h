@@ -10,26 +10,26 @@
 
 namespace probegi::builtin {
 
-/// Grows one primitive out of shapes. Every solid shape is closed (its edges match exactly) and faces outwards.
-/// uv0 is in metres, so that a material's uv transform alone sets the size of its texture; v runs downwards.
+/// Builds one primitive from shapes. Every solid shape is closed (its edges match exactly) and faces outwards.
+/// uv0 is in metres, so that the material's uv transform alone sets the texture's size; v runs downwards.
 class MeshBuilder {
 public:
     explicit MeshBuilder(int material) { m_primitive.material = material; }
-    /// Goes on with a primitive that take() gave.
+    /// Continues a primitive from take().
     explicit MeshBuilder(Primitive primitive) : m_primitive(std::move(primitive)) {}
 
     /// Applied to all vertices added from now on; must not mirror.
     void setTransform(const glm::mat4& toMesh) { m_transform = toMesh; }
 
     std::uint32_t vertex(glm::vec3 position, glm::vec3 normal, glm::vec2 uv);
-    /// Triangles without area are left out.
+    /// Omits triangles without area.
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
     /// Flat face, corners counter-clockwise; uvs projected along the largest component of the normal.
     void face(std::span<const glm::vec3> convexCorners);
     void quad(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d);
     void box(glm::vec3 lower, glm::vec3 upper);
-    /// A box with its edges cut off at 45 degrees, so that they catch the light.
+    /// A box with edges bevelled at 45 degrees, which catch the light.
     void bevelledBox(glm::vec3 lower, glm::vec3 upper, float bevel);
 
     bool empty() const { return m_primitive.indices.empty(); }

@@ -13,13 +13,13 @@ namespace {
 
 constexpr float kTau = glm::two_pi<float>();
 
-/// Neighbour of a profile point that its tangent is measured from; a point given twice has none on that side.
+/// Tangent at a profile point, from its neighbours; a point given twice has none on that side.
 glm::vec2 profileTangent(std::span<const glm::vec2> profile, std::size_t i) {
     const bool before = i > 0 && profile[i - 1] != profile[i];
     const bool after = i + 1 < profile.size() && profile[i + 1] != profile[i];
     const glm::vec2 a = before ? profile[i - 1] : profile[i];
     const glm::vec2 b = after ? profile[i + 1] : profile[i];
-    // The middle one of three equal points: no triangle uses it.
+    // The middle of three equal points; no triangle uses it.
     return a == b ? glm::vec2(0, 1) : b - a;
 }
 
@@ -42,7 +42,7 @@ void addLathe(MeshBuilder& out, std::span<const glm::vec2> profile, int segments
         if (i > 0) along += glm::length(profile[i] - profile[i - 1]);
         const glm::vec2 tangent = profileTangent(profile, i);
         for (int s = 0; s <= segments; ++s) {
-            // On the axis the direction around is taken from a small circle.
+            // On the axis, the tangential direction is that of a small circle.
             const glm::vec2 rh(std::max(profile[i].x, 1e-3f * maxRadius), profile[i].y);
             const glm::vec3 around = point(s + 1, rh) - point(s + segments - 1, rh);
             const float radial = rh.x > 0 ? glm::length(glm::vec2(point(s, rh).x, point(s, rh).z)) / rh.x : 1.0f;

@@ -4,7 +4,7 @@
 
 #include "kernels/random.h"
 
-/// Tileable value noise from hashes: the same everywhere, nothing to seed.
+/// Tileable value noise from hashes: deterministic, without state.
 namespace probegi::builtin {
 
 inline float hash01(int x, int y, int seed) {
@@ -13,7 +13,7 @@ inline float hash01(int x, int y, int seed) {
     return kernels::uintToUnit(h);
 }
 
-/// 0..1 at (u, v), which repeat with period 1; `cells` lattice cells a period.
+/// 0..1 at (u, v), with period 1; `cells` lattice cells per period.
 inline float valueNoise(float u, float v, int cells, int seed) {
     const float x = (u - std::floor(u)) * float(cells), y = (v - std::floor(v)) * float(cells);
     const int x0 = int(x), y0 = int(y);

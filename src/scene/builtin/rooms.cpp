@@ -36,7 +36,7 @@ Materials addMaterials(Scene& scene) {
     return m;
 }
 
-/// The shell with both rooms carved out and nothing open yet.
+/// The shell with both rooms carved out, without openings.
 BoxSolid shell(const Rooms& r, const Materials& m) {
     const float t = r.thickness;
     BoxSolid solid;
@@ -51,7 +51,7 @@ BoxSolid shell(const Rooms& r, const Materials& m) {
     return solid;
 }
 
-/// A window the width of the room but for its edges, in the front wall of the first room.
+/// A window nearly as wide as the room, in the front wall of the first room.
 void openWindow(BoxSolid& solid, const Rooms& r, const Materials& m) {
     solid.carve({r.left() + 0.5f, 0.5f, r.front()}, {-r.wall() - 0.5f, 2.4f, r.front() + r.thickness},
                 Paint::all(m.plaster));
@@ -129,7 +129,7 @@ Result<Scene> makeTwoRooms(const BuiltinParams& params) {
     return scene;
 }
 
-/// The second room has no opening at all: its walls, floor and ceiling are one closed surface.
+/// The second room has no opening: its walls, floor and ceiling are one closed surface.
 Result<Scene> makeDarkRoom(const BuiltinParams& params) {
     auto scene = makeRooms(params, "dark-room", false);
     if (!scene) return scene;

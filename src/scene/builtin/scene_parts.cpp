@@ -14,7 +14,7 @@ int append(std::vector<T>& list, T value) {
     return int(list.size()) - 1;
 }
 
-/// Turns the node's -Z axis to `forward`.
+/// Points the node's -Z axis along `forward`.
 glm::quat facing(glm::vec3 forward) {
     const PlacedCamera c = lookAt(glm::vec3(0), forward);
     const glm::vec3 right = glm::cross(c.forward, c.up);

@@ -21,11 +21,11 @@ double areaOf(const Primitive& p) {
 
 }  // namespace
 
-/// A sphere of radius R and albedo a, seen from inside, with a point light of power P at its centre: the light's power
-/// is absorbed in the end, so the irradiance by bounced light is P a / (4 pi R^2 (1 - a)) everywhere.
+/// A sphere of radius R and albedo a, seen from inside, with a point light of power P at its centre. All power is
+/// eventually absorbed, so the irradiance of bounced light is P a / (4 pi R^2 (1 - a)) everywhere.
 ///
 /// Its 20,480 flat facets have together exactly the area 4 pi R^2 (the vertices lie a little outside R, the facets'
-/// middles a little inside), so the mean over the surface is exact and only the spread shows the facets.
+/// middles a little inside), so the mean over the surface is exact and the facets affect only the spread.
 Result<Scene> makeSphere(const BuiltinParams& params) {
     if (auto r = requireWithin("albedo", params.albedo, 0, 0.99f); !r) return r.error();
     if (auto r = requirePositive("power", params.power); !r) return r.error();
@@ -47,7 +47,7 @@ Result<Scene> makeSphere(const BuiltinParams& params) {
     const float intensity = params.power / (4 * glm::pi<float>());
     addPointLight(scene, "lamp", glm::vec3(0), glm::vec3(intensity));
     addCamera(scene, "inside", {0, 0, 0.6f * radius}, glm::vec3(0), 75);
-    // Direct and bounced light together, as a light grey.
+    // Direct plus bounced light as a light grey.
     const float irradiance = intensity / (radius * radius) / (1 - params.albedo);
     scene.exposure = 0.5f * glm::pi<float>() / (std::max(params.albedo, 0.05f) * irradiance);
     return scene;

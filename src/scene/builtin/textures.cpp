@@ -19,14 +19,14 @@ std::uint8_t toByte(float v) {
     return std::uint8_t(std::lround(255 * std::clamp(v, 0.0f, 1.0f)));
 }
 
-/// sRGB by table: std::pow for every texel would be most of the time that a scene takes to make.
+/// sRGB by table: std::pow per texel would dominate the time to make a scene.
 std::uint8_t encode(float linear) {
     static const auto table = [] {
         std::array<std::uint8_t, 4097> t{};
         for (std::size_t i = 0; i < t.size(); ++i) t[i] = toByte(kernels::encodeSrgb(float(i) / 4096));
         return t;
     }();
-    // Nothing made by code is whiter than fresh plaster: brighter walls would bounce light almost for ever.
+    // Limited to the albedo of fresh plaster: brighter walls would bounce light almost for ever.
     return table[std::size_t(std::lround(4096 * std::clamp(linear, 0.0f, 0.85f)))];
 }
 
@@ -53,7 +53,7 @@ float smooth(float lower, float upper, float v) {
     return glm::smoothstep(lower, upper, v);
 }
 
-/// Where a point lies in a running bond: its block, and the distance to the block's edge in block heights.
+/// A point's position in a running bond: its block, and the distance to the block's edge in block heights.
 struct Block {
     int column, row;
     float edge;
@@ -150,7 +150,7 @@ TextureImage plankTexture(glm::vec3 wood, int planks, int seed) {
         const float x = 2 * u + 2 * shift;
         const float fx = x - std::floor(x);
         const int i = int(x) % 2;
-        // Fibres: noise stretched along the plank, with each plank its own part of it.
+        // Fibres: noise stretched along the plank, a different part for each plank.
         const float fibre = fractalNoise(u + shift, 7 * v + hash01(i, j, seed), 4, 5, seed + 5);
         const float ring = 0.5f + 0.5f * std::sin(kTau * (2.5f * fibre + 3 * fy));
         const float tone = 0.82f + 0.3f * hash01(i, j, seed + 1);

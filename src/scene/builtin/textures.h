@@ -4,8 +4,8 @@
 
 #include "probegi/scene.h"
 
-/// Textures painted by code, at most 512 x 512, all tileable but the leaf. Colours given and produced are linear
-/// albedo; the images hold them as sRGB. Their mean is close to the colour asked for.
+/// Textures painted by code, at most 512 x 512, all tileable but the leaf. Colours are linear albedo, stored as sRGB. A
+/// texture's mean is close to the requested colour.
 namespace probegi::builtin {
 
 TextureImage plasterTexture(glm::vec3 colour, int seed);
@@ -14,7 +14,7 @@ TextureImage masonryTexture(glm::vec3 stone, glm::vec3 mortar, int columns, int 
 TextureImage masonryNormals(int columns, int rows, int seed);
 /// 2 x 2 square tiles in two colours with small dark squares at the corners.
 TextureImage inlayFloorTexture(glm::vec3 light, glm::vec3 dark, glm::vec3 corner);
-/// rows x rows square tiles that differ a little, with grout.
+/// rows x rows square tiles that vary slightly, with grout.
 TextureImage squareTilesTexture(glm::vec3 tile, glm::vec3 grout, int rows, int seed);
 TextureImage plankTexture(glm::vec3 wood, int planks, int seed);
 /// Overlapping rows of round roof tiles.

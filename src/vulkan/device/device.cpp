@@ -13,17 +13,18 @@ Device::Impl::~Impl() {
     }
     submitter.reset();
     if (owned) return;
-    // What an engine lent goes back alive.
+    // Do not destroy an engine's handles.
     if (*device) device.release();
     if (*instance) instance.release();
 }
 
 void Device::Impl::finish(const Features& features, const std::filesystem::path& cacheFolder) {
-    // What enabled features and extensions promise, an instance of an older version or a thin loader may not deliver.
+    // Functions of enabled features and extensions may still be missing if the instance is older or the loader
+    // incomplete.
     const auto& functions = *device.getDispatcher();
     if (!functions.vkCmdPipelineBarrier2 || !functions.vkCmdWriteTimestamp2 || !functions.vkGetBufferDeviceAddress)
         throw Failure(ErrorCode::unsupported,
-                      "the device does not offer the functions of Vulkan 1.3; make its instance with "
+                      "the device lacks functions of Vulkan 1.3; create its instance with "
                       "VkApplicationInfo::apiVersion 1.3, or use the CPU backend");
     debugUtilsEnabled &= functions.vkSetDebugUtilsObjectNameEXT && functions.vkCmdBeginDebugUtilsLabelEXT &&
                          functions.vkCmdEndDebugUtilsLabelEXT;
@@ -49,7 +50,7 @@ void Device::Impl::finish(const Features& features, const std::filesystem::path&
 
 void Device::Impl::setName(vk::ObjectType type, std::uint64_t handle, const char* name) const {
     if (!debugUtilsEnabled) return;
-    // A name that could not be given is no reason to fail.
+    // Failing to set a name is not an error.
     const VkDebugUtilsObjectNameInfoEXT named = vk::DebugUtilsObjectNameInfoEXT(type, handle, name);
     device.getDispatcher()->vkSetDebugUtilsObjectNameEXT(*device, &named);
 }

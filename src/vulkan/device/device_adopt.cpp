@@ -17,9 +17,9 @@ Result<void> checkHandles(const AdoptDesc& desc) {
                                                 : nullptr;
     if (bool(desc.allocator.allocate) != bool(desc.allocator.free))
         return fail(ErrorCode::invalidArgument,
-                    "AdoptDesc::allocator has one of its two functions; give allocate and free, or neither");
+                    "AdoptDesc::allocator has only one of its two functions; set allocate and free, or neither");
     if (!absent) return {};
-    return fail(ErrorCode::invalidArgument, sentence("AdoptDesc::", absent, " is null; the engine's must be given"));
+    return fail(ErrorCode::invalidArgument, sentence("AdoptDesc::", absent, " is null; set it to the engine's"));
 }
 
 bool contains(std::span<const char* const> names, std::string_view wanted) {
@@ -42,7 +42,7 @@ Result<Device> Device::adopt(const Context& context, const AdoptDesc& desc) {
         const PFN_vkGetInstanceProcAddr loader = desc.getInstanceProcAddr ? desc.getInstanceProcAddr : systemLoader();
         if (!loader || !loader(desc.instance, "vkGetDeviceProcAddr"))
             throw Failure(ErrorCode::unsupported,
-                          "there is no Vulkan loader that knows the instance; give AdoptDesc::getInstanceProcAddr");
+                          "no Vulkan loader knows this instance; set AdoptDesc::getInstanceProcAddr");
         auto impl = std::make_shared<Impl>(context, loader);
         impl->instance = vk::raii::Instance(impl->vulkan, desc.instance);
         impl->physical = vk::raii::PhysicalDevice(impl->instance, desc.physicalDevice);
@@ -53,7 +53,7 @@ Result<Device> Device::adopt(const Context& context, const AdoptDesc& desc) {
         if (desc.queueFamily >= families.size() ||
             !(families[desc.queueFamily].queueFlags & vk::QueueFlagBits::eCompute))
             throw Failure(ErrorCode::invalidArgument,
-                          sentence("queue family ", desc.queueFamily, " has no compute; passes need one that has"));
+                          sentence("queue family ", desc.queueFamily, " has no compute; choose one that has"));
         impl->device = vk::raii::Device(impl->physical, desc.device);
         impl->family = desc.queueFamily;
         impl->debugUtilsEnabled = contains(desc.instanceExtensions, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);

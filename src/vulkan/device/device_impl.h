@@ -10,7 +10,7 @@
 
 namespace probegi::vulkan {
 
-/// Everything that objects of one device share.
+/// State shared by all objects of a device.
 struct Device::Impl {
     Impl(const Context& c, PFN_vkGetInstanceProcAddr loader)
         : context(c), vulkan(loader), instance(nullptr), physical(nullptr), device(nullptr), queue(nullptr) {}
@@ -18,10 +18,10 @@ struct Device::Impl {
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    /// The last step of both ways to make one: limits, pipelines. instance, physical, device and family are set.
+    /// The last step of both open and adopt: limits, pipelines. instance, physical, device and family must be set.
     void finish(const Features& features, const std::filesystem::path& cacheFolder);
 
-    /// For debuggers, where VK_EXT_debug_utils is there.
+    /// For debuggers, if VK_EXT_debug_utils is enabled.
     void setName(vk::ObjectType type, std::uint64_t handle, const char* name) const;
     bool debugUtils() const noexcept { return debugUtilsEnabled; }
     void warn(const std::string& sentence) const { context.log(LogLevel::warning, sentence); }
@@ -32,7 +32,7 @@ struct Device::Impl {
     std::optional<vk::raii::DebugUtilsMessengerEXT> messenger;
     vk::raii::PhysicalDevice physical;
     vk::raii::Device device;
-    vk::raii::Queue queue;  ///< of a device of the library's own; null on an engine's
+    vk::raii::Queue queue;  ///< of the library's own device; null on an engine's
     bool owned = false;     ///< whether instance and device are the library's
     bool debugUtilsEnabled = false;
     bool rayQuery = false;
@@ -45,7 +45,7 @@ struct Device::Impl {
     VkDeviceSize maxBufferBytes = 0;
     Allocator allocator;
     mutable std::atomic<int> validationMessages{0};
-    mutable std::optional<Submitter> submitter;      // of a device of the library's own
+    mutable std::optional<Submitter> submitter;      // of the library's own device
     mutable std::optional<PipelineStore> pipelines;  // compiles on demand
 };
 

@@ -15,14 +15,14 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kNoLoader =
     "there is no Vulkan loader on this machine; install libvulkan1 and a driver, or use the CPU backend";
 
-// Memory that has run out is also what the loader says of a driver's description that it cannot read.
+// The loader also reports out of memory if it cannot read a driver's manifest.
 template <class Body>
 auto asking(const Body& body) try {
     return body();
 } catch (const vk::OutOfHostMemoryError&) {
     throw Failure(
         ErrorCode::unsupported,
-        "Vulkan cannot start: a driver's .json file is damaged (they lie in /usr/share/vulkan/icd.d, or where "
+        "Vulkan cannot start: a driver's .json file is damaged (they are in /usr/share/vulkan/icd.d, or where "
         "VK_DRIVER_FILES and VK_ICD_FILENAMES say), or memory has run out; repair the file, or use the CPU "
         "backend");
 }
@@ -71,7 +71,7 @@ vk::raii::Instance makeInstance(const vk::raii::Context& vulkan, bool validation
     return asking([&] { return vk::raii::Instance(vulkan, info); });
 }
 
-// Best first: what a person would choose.
+// Preference order, best first.
 int rank(const vk::raii::PhysicalDevice& device) {
     switch (device.getProperties().deviceType) {
         case vk::PhysicalDeviceType::eDiscreteGpu:
@@ -91,7 +91,7 @@ std::string listed(const std::vector<DeviceInfo>& infos) {
     return text;
 }
 
-// The device that `wanted` names: an index, or part of a name in any case of letters.
+// The device named by `wanted`: an index, or part of a name, case-insensitive.
 std::size_t findNamed(const std::vector<DeviceInfo>& infos, const std::string& wanted) {
     std::size_t index = 0;
     const auto parsed = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
@@ -100,7 +100,7 @@ std::size_t findNamed(const std::vector<DeviceInfo>& infos, const std::string& w
         for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
         return text;
     };
-    // A number that is no index may be part of a name: "3090".
+    // A number that is not an index may be part of a name: "3090".
     for (const DeviceInfo& info : infos)
         if (lower(info.name).find(lower(wanted)) != std::string::npos) return std::size_t(info.index);
     throw Failure(ErrorCode::unsupported,

@@ -6,7 +6,7 @@ namespace probegi::vulkan {
 
 namespace {
 
-// Refusals that are about room, besides the two plain ones.
+// Out-of-memory results besides the two obvious ones.
 bool meansNoMemory(vk::Result result) {
     return result == vk::Result::eErrorTooManyObjects || result == vk::Result::eErrorMemoryMapFailed ||
            result == vk::Result::eErrorOutOfPoolMemory || result == vk::Result::eErrorFragmentedPool ||
@@ -43,7 +43,7 @@ Error currentError(const char* doing) noexcept {
     } catch (const std::exception& error) {
         return {ErrorCode::unsupported, sentence("failed while ", doing, ": ", error.what())};
     } catch (...) {
-        // Callbacks of an engine's may throw anything.
+        // An engine's callbacks may throw anything.
         return {ErrorCode::unsupported, sentence("failed while ", doing)};
     }
 }

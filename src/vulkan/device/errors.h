@@ -15,10 +15,10 @@ struct Failure : std::runtime_error {
     ErrorCode code;
 };
 
-/// The Error of what is being thrown at the moment; call it within a catch block. `doing` completes "while ...".
+/// The Error for the current exception; call it in a catch block. `doing` completes "while ...".
 Error currentError(const char* doing) noexcept;
 
-/// Runs `body` and turns what it throws into an Error: nothing throws across the API.
+/// Runs `body` and turns exceptions into an Error: nothing throws across the API.
 template <class Body>
 auto guarded(const char* doing, const Body& body) noexcept -> Result<std::invoke_result_t<Body>> {
     try {
@@ -33,7 +33,7 @@ auto guarded(const char* doing, const Body& body) noexcept -> Result<std::invoke
     }
 }
 
-/// The other way round, for a Result within this layer.
+/// The inverse, for a Result within this layer.
 template <class T>
 T orThrow(Result<T> result) {
     if (!result) throw Failure(result.error().code, result.error().message);

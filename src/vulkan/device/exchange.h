@@ -7,14 +7,14 @@
 
 namespace probegi::vulkan {
 
-/// Arrays that go to the GPU, through passes, and come back. Buffers are kept and grow. Throws. One thread at a time.
+/// Round trips of arrays to the GPU, through passes, and back. Buffers are kept and grow. Throws. One thread at a time.
 class Exchange {
 public:
     explicit Exchange(const Device& device) : m_device(device) {}
 
-    /// Begins a round: how many bytes go in and come out at most.
+    /// Begins a round, with upper limits of bytes in and out.
     void begin(std::size_t bytesIn, std::size_t bytesOut);
-    /// Appends values to what goes in and returns where they will lie.
+    /// Appends input values and returns their address.
     template <class T>
     VkDeviceAddress add(std::span<const T> values) {
         const std::size_t at = m_used;
@@ -22,10 +22,10 @@ public:
         m_used += (values.size_bytes() + 15) / 16 * 16;
         return m_in.address() + at;
     }
-    /// Where results are expected.
+    /// Address for the results.
     VkDeviceAddress out() const noexcept { return m_out.address(); }
     const Buffer& outBuffer() const noexcept { return m_out; }
-    /// Copies in, records the passes, copies the first bytes of the results back, waits.
+    /// Copies the input, records the passes, copies the first bytes of the results back, waits.
     void run(const std::function<void(const Recorder&)>& passes, std::size_t bytesBack);
     template <class T>
     std::span<const T> results() const noexcept {
@@ -39,7 +39,7 @@ private:
     std::size_t m_used = 0;
 };
 
-/// Records, submits and waits. Throws Failure on a device of an engine's: the library does not submit there.
+/// Records, submits and waits. Throws Failure on an engine's device: the library does not submit there.
 void submitAndWait(const Device& device, const std::function<void(const Recorder&)>& passes);
 
 }  // namespace probegi::vulkan

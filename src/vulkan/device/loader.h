@@ -4,8 +4,8 @@
 
 namespace probegi::vulkan {
 
-/// vkGetInstanceProcAddr of the system's Vulkan loader; null where none is installed. The loader stays loaded for the
-/// life of the process.
+/// vkGetInstanceProcAddr of the system's Vulkan loader; null if none is installed. The loader stays loaded for the
+/// lifetime of the process.
 PFN_vkGetInstanceProcAddr systemLoader() noexcept;
 
 }  // namespace probegi::vulkan

@@ -23,7 +23,7 @@ vk::MemoryPropertyFlags propertiesFor(MemoryUse use) {
     return {};
 }
 
-// The first type with all wanted properties; cached memory is a wish only.
+// The first type with all required properties; cached memory is optional.
 std::uint32_t memoryType(const vk::PhysicalDeviceMemoryProperties& memory, std::uint32_t allowed,
                          vk::MemoryPropertyFlags wanted) {
     for (const auto properties : {wanted, wanted & ~vk::MemoryPropertyFlags(vk::MemoryPropertyFlagBits::eHostCached),
@@ -37,7 +37,7 @@ void allocateOwn(const Device::Impl& device, const VkMemoryRequirements& needs, 
                  Allocation& out) {
     const auto& properties = device.memoryProperties;
     const std::uint32_t type = memoryType(properties, needs.memoryTypeBits, propertiesFor(use));
-    // Drivers need not survive being asked for more.
+    // Some drivers crash if asked for more.
     if (needs.size > properties.memoryHeaps[properties.memoryTypes[type].heapIndex].size)
         throw vk::OutOfDeviceMemoryError("more than the whole heap");
     const vk::MemoryAllocateFlagsInfo flags(vk::MemoryAllocateFlagBits::eDeviceAddress);

@@ -8,7 +8,7 @@
 
 namespace probegi::vulkan {
 
-/// A piece of GPU memory: from the engine's allocator, or a vkDeviceMemory of its own. Throws.
+/// A piece of GPU memory: from the engine's allocator, or its own VkDeviceMemory. Throws.
 class Memory {
 public:
     Memory() = default;
@@ -31,11 +31,11 @@ private:
     Allocation m_allocation;
 };
 
-/// A buffer with memory and, where its usage says so, an address. Throws what Vulkan-Hpp throws.
+/// A buffer with memory and, depending on its usage, an address. Throws as Vulkan-Hpp.
 class Buffer {
 public:
     Buffer() = default;
-    /// `bytes` may be 0: the buffer then has 16.
+    /// `bytes` may be 0; the buffer then has 16.
     Buffer(const Device::Impl& device, const char* name, std::size_t bytes, vk::BufferUsageFlags usage,
            MemoryUse use = MemoryUse::device);
 
@@ -66,7 +66,7 @@ public:
     vk::ImageView view() const noexcept { return *m_view; }
     vk::Extent2D size() const noexcept { return m_size; }
     std::uint32_t layers() const noexcept { return m_layers; }
-    std::size_t bytes() const noexcept { return m_bytes; }  ///< of memory, as the driver wants it
+    std::size_t bytes() const noexcept { return m_bytes; }  ///< of memory, as the driver requires
 
 private:
     Memory m_memory;

@@ -21,21 +21,21 @@ std::string hex(std::uint32_t value, int digits) {
     return out.str();
 }
 
-// Drivers check the header of their pipeline cache, but not all survive a damaged body: a sum over it goes before it.
+// Drivers check their pipeline cache's header, but some crash on a damaged body, so a checksum precedes it.
 struct CacheHeader {
     char magic[8] = {'P', 'G', 'I', 'C', 'A', 'C', 'H', '1'};
     std::uint64_t bytes = 0;
     std::uint64_t sum = 0;
 };
 
-// FNV-1a, 64 bits: finds accidents, not attacks.
+// FNV-1a, 64 bits: detects accidents, not attacks.
 std::uint64_t checksum(std::span<const std::uint8_t> data) {
     std::uint64_t sum = 0xcbf29ce484222325u;
     for (const std::uint8_t byte : data) sum = (sum ^ byte) * 0x100000001b3u;
     return sum;
 }
 
-// One file a driver and device: their names are in the UUID.
+// One file per driver and device, which the UUID identifies.
 std::filesystem::path cacheFile(const vk::raii::PhysicalDevice& physical, const std::filesystem::path& folder) {
     if (folder.empty()) return {};
     std::string name = "pipelines-";
@@ -46,13 +46,13 @@ std::filesystem::path cacheFile(const vk::raii::PhysicalDevice& physical, const 
 std::vector<std::uint8_t> readCache(const std::filesystem::path& file, std::string& warning) {
     constexpr std::uintmax_t kMostBytes = 1 << 30;
     std::error_code error;
-    // Opening a pipe would wait for ever, and a device may have no end.
+    // Opening a pipe would block for ever, and a device file may be endless.
     const bool readable =
         std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) <= kMostBytes;
     std::ifstream in;
     if (readable) in.open(file, std::ios::binary);
     if (!in.is_open() && (readable || !std::filesystem::exists(file, error))) return {};
-    // What is not readable leaves the text empty.
+    // Unreadable files leave the text empty.
     std::ostringstream stream;
     stream << in.rdbuf();
     const std::string text = stream.str();
@@ -64,15 +64,15 @@ std::vector<std::uint8_t> readCache(const std::filesystem::path& file, std::stri
     }
     if (body.empty() || std::memcmp(header.magic, CacheHeader().magic, sizeof(header.magic)) != 0 ||
         header.bytes != body.size() || header.sum != checksum(body)) {
-        warning = sentence("the shader cache '", file.generic_string(),
-                           "' is damaged and was ignored; it will be written anew");
+        warning =
+            sentence("the shader cache '", file.generic_string(), "' is damaged and was ignored; it will be rewritten");
         return {};
     }
     return body;
 }
 
-// Whether a driver's cache says that it is this driver's (VkPipelineCacheHeaderVersionOne). Drivers look as well, but
-// say nothing.
+// Whether a cache's header names this driver (VkPipelineCacheHeaderVersionOne). Drivers check too, but do not report
+// it.
 bool isOf(const vk::raii::PhysicalDevice& physical, std::span<const std::uint8_t> cache) {
     VkPipelineCacheHeaderVersionOne header;
     if (cache.size() < sizeof(header)) return false;
@@ -126,7 +126,7 @@ PipelineStore::PipelineStore(const vk::raii::PhysicalDevice& physical, const vk:
     std::vector<std::uint8_t> data = readCache(m_file, warning);
     if (!data.empty() && !isOf(physical, data)) {
         warning = sentence("the shader cache '", m_file.generic_string(),
-                           "' is of another driver and was ignored; it will be written anew");
+                           "' is of another driver and was ignored; it will be rewritten");
         data.clear();
     }
     m_savedSum = checksum(data);
@@ -160,7 +160,7 @@ void PipelineStore::save() {
     if (header.sum == m_savedSum) return;
     std::error_code ignored;
     std::filesystem::create_directories(m_file.parent_path(), ignored);
-    // A name of its own: several processes may end at once.
+    // A unique name, since several processes may save at once.
     std::filesystem::path temporary = m_file;
     temporary += sentence(".", hex(std::random_device()(), 8), ".tmp");
     std::ofstream out(temporary, std::ios::binary);
@@ -171,9 +171,8 @@ void PipelineStore::save() {
     if (out) std::filesystem::rename(temporary, m_file, error);
     if (!out || error) {
         std::filesystem::remove(temporary, ignored);
-        throw Failure(ErrorCode::writeFailed,
-                      sentence("the shader cache '", m_file.generic_string(),
-                               "' could not be written; shaders will be compiled anew next time"));
+        throw Failure(ErrorCode::writeFailed, sentence("the shader cache '", m_file.generic_string(),
+                                                       "' could not be written; shaders will be recompiled next time"));
     }
     m_changed = false;
     m_savedSum = header.sum;

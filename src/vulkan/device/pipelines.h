@@ -9,8 +9,8 @@
 
 namespace probegi::vulkan {
 
-/// The one layout that all passes share. Set 0: a volume. Set 1: a scene. Push constants: what the pass's struct in
-/// kernels/abi/gpu_passes.h says, at most the 128 bytes that every device has.
+/// The layout shared by all passes. Set 0: a volume. Set 1: a scene. Push constants: the pass's struct in
+/// kernels/abi/gpu_passes.h, at most the 128 bytes that every device supports.
 struct PassLayout {
     PassLayout(const vk::raii::Device& device, bool rayQuery);
 
@@ -21,17 +21,17 @@ struct PassLayout {
     vk::raii::PipelineLayout pipeline;
 };
 
-/// Compute pipelines by the name of their shader, compiled when first asked for and kept in a file between runs.
+/// Compute pipelines by shader name, compiled on first use and cached in a file between runs.
 class PipelineStore {
 public:
-    /// `folder` may be empty. A damaged file is ignored (`warning` says so), as is one of another driver.
+    /// `folder` may be empty. A damaged file is ignored, as is one of another driver, with a `warning`.
     PipelineStore(const vk::raii::PhysicalDevice& physical, const vk::raii::Device& device, bool rayQuery,
                   std::filesystem::path folder, std::string& warning);
 
     const PassLayout& layout() const noexcept { return m_layout; }
     /// `constants`: specialisation constants 0, 1, ... Throws.
     vk::Pipeline get(const std::string& shader, std::span<const std::uint32_t> constants = {});
-    /// Writes the file where it would differ from what was read; whole or not at all. Throws Failure.
+    /// Writes the file if it has changed, atomically. Throws Failure.
     void save();
 
 private:
@@ -41,7 +41,7 @@ private:
     vk::raii::PipelineCache m_cache;
     std::map<std::string, vk::raii::Pipeline> m_pipelines;
     bool m_changed = false;
-    std::uint64_t m_savedSum = 0;  // of what the file holds
+    std::uint64_t m_savedSum = 0;  // of the file's contents
 };
 
 }  // namespace probegi::vulkan

@@ -9,7 +9,7 @@
 
 namespace probegi::vulkan {
 
-/// Records passes into a command buffer that someone else owns. All passes share PassLayout.
+/// Records passes into a command buffer that it does not own. All passes share PassLayout.
 class Recorder {
 public:
     Recorder(const Device::Impl& device, VkCommandBuffer commands) : m_device(device), m_commands(commands) {}
@@ -31,14 +31,14 @@ public:
                                 dispatcher());
         m_commands.dispatch(x, y, z, dispatcher());
     }
-    /// Runs a pass over `count` threads. More groups than one axis may have are spread over
-    /// two: shaders find their number with globalIndex() of shaders/common.glsl.
+    /// Runs a pass over `count` threads. More groups than one axis allows are spread over
+    /// two: shaders get their index from globalIndex() of shaders/common.glsl.
     void dispatchOver(const std::string& shader, std::uint64_t count) const {
         const kernels::uvec3 groups = kernels::threadGroups(std::uint32_t(count));
         if (count) dispatch(shader, groups.x, groups.y);
     }
-    /// Runs a pass over `blocks` times `columns` groups: x and z hold a group's block, y its column. Devices need not
-    /// take more than 65,535 groups along an axis, and blocks of probes may be more.
+    /// Runs a pass over `blocks` times `columns` groups: x and z hold a group's block, y its column. Devices may limit
+    /// an axis to 65,535 groups, and there may be more blocks of probes.
     void dispatchOver(const std::string& shader, std::uint32_t blocks, std::uint32_t columns,
                       std::span<const std::uint32_t> constants = {}) const {
         const kernels::uvec3 groups = kernels::blockGroups(blocks, columns);
@@ -58,8 +58,8 @@ public:
     void fill(const Buffer& buffer, std::uint32_t value) const {
         m_commands.fillBuffer(buffer.handle(), 0, VK_WHOLE_SIZE, value, dispatcher());
     }
-    /// Writes bytes from the command buffer itself, in pieces that vkCmdUpdateBuffer takes, `offset` bytes into the
-    /// buffer. Multiples of four bytes.
+    /// Writes bytes stored in the command buffer at `offset` bytes into the buffer, split to vkCmdUpdateBuffer's limit.
+    /// Multiples of four bytes.
     void write(const Buffer& buffer, std::span<const std::byte> bytes, std::size_t offset = 0) const {
         constexpr std::size_t kPiece = 65536;
         for (std::size_t at = 0; at < bytes.size(); at += kPiece)
@@ -67,8 +67,7 @@ public:
                                     bytes.data() + at, dispatcher());
     }
 
-    /// Everything before is done and visible to everything after, whatever the stage. For the ends of updates and
-    /// uploads, of which a frame has few.
+    /// Full barrier over all stages. For the ends of updates and uploads, of which a frame has few.
     void orderAll() const {
         const auto access = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite;
         barrier(vk::PipelineStageFlagBits2::eAllCommands, access, vk::PipelineStageFlagBits2::eAllCommands, access);
@@ -78,7 +77,7 @@ public:
         const vk::MemoryBarrier2 memory(before, written, after, used);
         m_commands.pipelineBarrier2(vk::DependencyInfo({}, memory), dispatcher());
     }
-    /// Between two compute passes of which the second reads or overwrites what the first wrote or read.
+    /// Between two compute passes, if the second reads or overwrites what the first wrote or read.
     void computeToCompute() const {
         barrier(vk::PipelineStageFlagBits2::eComputeShader, kShaderAccess, vk::PipelineStageFlagBits2::eComputeShader,
                 kShaderAccess);
@@ -114,7 +113,7 @@ private:
     vk::CommandBuffer m_commands;
 };
 
-/// Encloses a pass with a timestamp pair and a debug label, where these are wanted and there.
+/// Encloses a pass in timestamps and a debug label, if requested and available.
 class PassScope {
 public:
     PassScope(const Recorder& recorder, const Device::Impl& device, Profiler* profiler, const char* name);

@@ -34,7 +34,7 @@ bool hasExtension(const std::vector<vk::ExtensionProperties>& extensions, std::s
                        [&](const auto& e) { return name == e.extensionName.data(); });
 }
 
-// The names are those of VK_KHR_acceleration_structure's own dependencies too.
+// Including the dependencies of VK_KHR_acceleration_structure.
 bool hasRayQueryExtensions(const std::vector<vk::ExtensionProperties>& extensions) {
     return hasExtension(extensions, VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME) &&
            hasExtension(extensions, VK_KHR_RAY_QUERY_EXTENSION_NAME) &&
@@ -106,7 +106,7 @@ std::string Features::missing() const {
 
 Features availableFeatures(const vk::raii::PhysicalDevice& device) {
     Features f;
-    // Structures of a later version must not be chained to an older device.
+    // Structures of a newer version must not be chained for an older device.
     if (device.getProperties().apiVersion < VK_API_VERSION_1_3) return f;
     const auto chain = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
                                            vk::PhysicalDeviceVulkan13Features>();

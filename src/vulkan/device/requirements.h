@@ -8,14 +8,14 @@
 
 namespace probegi::vulkan {
 
-/// Formats of the probes' atlases. Both keep energy with dithered rounding (method.md, "Encoding").
+/// Formats of the probes' atlases. Both preserve energy with dithered rounding (method.md, "Encoding").
 inline constexpr vk::Format kIrradianceFormat = vk::Format::eR16G16B16A16Sfloat;
 inline constexpr vk::Format kVisibilityFormat = vk::Format::eR16G16Unorm;
 
 /// DeviceInfo::type of a device that runs on the processor.
 inline constexpr const char* kSoftwareDevice = "software";
 
-/// What a device has, or what was enabled on it.
+/// Features that a device has, or that were enabled on it.
 struct Features {
     bool synchronization2 = false;
     bool bufferDeviceAddress = false;
@@ -24,20 +24,19 @@ struct Features {
     bool accelerationStructure = false;
     bool rayQuery = false;
 
-    /// Names the first feature that the library cannot do without and that is not there; empty: none.
+    /// The name of the first missing required feature; empty: none.
     std::string missing() const;
     bool canRayQuery() const { return accelerationStructure && rayQuery; }
 };
 
 Features availableFeatures(const vk::raii::PhysicalDevice& device);
-/// From what an engine made its device with.
+/// From an engine's device create info.
 Features enabledFeatures(const VkDeviceCreateInfo& info);
 
-/// Everything else that a device needs: version, formats, a compute queue. Empty: all there.
+/// The first other missing requirement: version, formats, a compute queue. Empty: none.
 std::string missingBesidesFeatures(const vk::raii::PhysicalDevice& device);
 
-/// The family for command buffers of the library's own: compute, with graphics where possible (the busiest hardware
-/// queue, and what an engine would use).
+/// The family for the library's own command buffers: compute, with graphics if possible (as an engine would use).
 std::optional<std::uint32_t> computeFamily(const vk::raii::PhysicalDevice& device);
 
 DeviceInfo describe(const vk::raii::PhysicalDevice& device, int index);

@@ -6,14 +6,14 @@
 
 namespace probegi::vulkan {
 
-/// The error of an upload that is recorded too late.
+/// The error for an upload recorded too late.
 inline constexpr const char* kNothingToUpload =
-    "the upload was recorded after releaseStaging(), when there is nothing left to copy; record it once, before";
+    "the upload was recorded after releaseStaging(), when nothing is left to copy; record it once, before";
 
-/// Bytes on their way to buffers: collected, copied into one upload buffer, recorded as copies, released.
+/// Bytes to upload to buffers: collected, copied into one upload buffer, recorded as copies, released.
 class Staging {
 public:
-    /// A new device buffer for the bytes. `bytes` must stay until fill(). Throws.
+    /// A new device buffer for the bytes. `bytes` must live until fill(). Throws.
     template <class T>
     Buffer add(const Device::Impl& device, const char* name, const std::vector<T>& values,
                vk::BufferUsageFlags usage = kAddressed) {
@@ -26,7 +26,7 @@ public:
     void fill(const Device::Impl& device);
     void record(const Recorder& recorder) const;
     void release() noexcept { *this = Staging(); }
-    /// Nothing is left to record, or nothing was ever added.
+    /// Whether nothing is left to record, or nothing was ever added.
     bool released() const noexcept { return m_copies.empty(); }
 
 private:

@@ -13,7 +13,7 @@ void Submitter::run(const std::function<void(VkCommandBuffer)>& record) {
     const std::lock_guard lock(m_mutex);
     if (m_lost) throw vk::DeviceLostError("the device was lost before");
     const vk::raii::CommandBuffer& commands = m_commands.front();
-    // Also out of the state in which a recording that failed left it.
+    // Also resets it after a failed recording.
     commands.reset();
     m_device.resetFences(*m_fence);
     commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
@@ -30,11 +30,11 @@ void Submitter::run(const std::function<void(VkCommandBuffer)>& record) {
 
 void Submitter::wait() {
     try {
-        // A driver that hangs is reset by its system, which then says that the device is lost.
+        // If a driver hangs, the system resets it and reports the device as lost.
         while (m_device.waitForFences(*m_fence, true, 1'000'000'000) == vk::Result::eTimeout) {
         }
     } catch (const vk::SystemError& error) {
-        // Whatever the reason: nobody knows whether the commands still run, so nothing may follow them.
+        // Whatever the reason, the commands may still be running, so nothing may follow them.
         m_lost = true;
         throw vk::DeviceLostError(error.what());
     }

@@ -7,13 +7,13 @@
 
 namespace probegi::vulkan {
 
-/// Records, submits and waits, one command buffer at a time: for programs without a frame of their own. Safe from
-/// several threads. A lost device stays lost: later runs throw vk::DeviceLostError without touching it.
+/// Records, submits and waits, one command buffer at a time: for programs without a frame loop. Thread-safe. A lost
+/// device stays lost: later runs throw vk::DeviceLostError without touching it.
 class Submitter {
 public:
     Submitter(const vk::raii::Device& device, const vk::raii::Queue& queue, std::uint32_t family);
 
-    /// Throws what `record` throws, and what Vulkan-Hpp throws.
+    /// Throws the exceptions of `record` and of Vulkan-Hpp.
     void run(const std::function<void(VkCommandBuffer)>& record);
 
 private:

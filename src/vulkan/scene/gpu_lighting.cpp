@@ -54,9 +54,8 @@ void GpuLighting::releaseStaging() noexcept {
 
 Result<void> GpuLighting::recordUpdate(VkCommandBuffer commands, const Lighting& lighting) {
     if (int(lighting.lights.size()) > m_impl->capacity)
-        return fail(ErrorCode::invalidArgument,
-                    sentence(lighting.lights.size(), " lights do not fit; there is room for ", m_impl->capacity,
-                             " (maxLights)"));
+        return fail(ErrorCode::invalidArgument, sentence(lighting.lights.size(), " lights do not fit; the capacity is ",
+                                                         m_impl->capacity, " (maxLights)"));
     return guarded("updating lights", [&] {
         const Recorder recorder(m_impl->device.impl(), commands);
         const std::vector<kernels::GpuLight> lights = packLights(lighting.lights);

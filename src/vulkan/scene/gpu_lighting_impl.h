@@ -17,7 +17,7 @@ struct GpuLighting::Impl {
     int skyWidth, skyHeight;
     Buffer lights, skyPixels, block;
     Staging staging;
-    // What staging points to.
+    // Source of the staged copies.
     std::vector<kernels::GpuLight> packed;
     std::vector<glm::vec3> pixels;
     std::vector<kernels::LightingBlock> described;

@@ -13,11 +13,10 @@ namespace {
 
 TracerKind chooseTracer(const Device& device, TracerKind wanted) {
     if (wanted == TracerKind::rayQuery && !device.rayQuery())
-        throw Failure(ErrorCode::unsupported, "ray query was asked for, but the device '" + device.info().name +
+        throw Failure(ErrorCode::unsupported, "ray query was requested, but the device '" + device.info().name +
                                                   "' does not have it or it is not enabled; use the BVH tracer");
     if (wanted != TracerKind::automatic) return wanted;
-    // A software device's ray query runs on the same cores as everything else: with Mesa 25.0 it took eight times as
-    // long as the BVH.
+    // A software device's ray query is slower: with Mesa 25.0 it took eight times as long as the BVH.
     const bool inHardware = device.info().type != kSoftwareDevice;
     return device.rayQuery() && inHardware ? TracerKind::rayQuery : TracerKind::bvh;
 }

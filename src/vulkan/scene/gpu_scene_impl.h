@@ -12,24 +12,24 @@ struct GpuScene::Impl {
     vk::DescriptorSet set() const noexcept { return *sets.front(); }
     std::string shaderSuffix() const { return tracer->shaderSuffix(); }
     kernels::SceneConstants constants() const;
-    Bounds placedBounds() const;  // where the placements are now
-    bool placeEmitters();         // where the placements are now; returns whether any lamp is among them
+    Bounds placedBounds() const;  // for the current placements
+    bool placeEmitters();         // for the current placements; returns whether there are any
 
     Device device;
     std::vector<Placement> placements;
     Bounds bounds;
-    Bounds worldBounds;  // of what is merged; meaningless without hasWorld
+    Bounds worldBounds;  // of the merged meshes; undefined without hasWorld
     bool hasWorld = false;
     std::vector<Bounds> groupBounds;  // in their own spaces
     EmitterGeometry emitterGeometry;
-    EmitterSet emitters;  // where they are now
+    EmitterSet emitters;  // for the current placements
     Buffer vertices, triangles, uv1, tangents, meshes, instances, materials, textures, texels, srgbTable, emitterBuffer;
     Buffer constantsBuffer;
     std::unique_ptr<SceneTracer> tracer;
     vk::raii::DescriptorPool pool{nullptr};
     vk::raii::DescriptorSets sets{nullptr};
     Staging staging;
-    SceneData data;  // what staging points to; emptied with it
+    SceneData data;  // source of the staged copies; cleared with them
 
 private:
     void upload();

@@ -15,7 +15,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "texels are copied as words with R in the lowest byte");
 static_assert(sizeof(SurfaceVertex) == sizeof(kernels::GpuVertex));
 
-/// Stores each image and each use of one once.
+/// Stores each image and each texture reference once.
 class TexturePacker {
 public:
     TexturePacker(const Scene& scene, const MipMaps& mips, SceneData& data)

@@ -11,7 +11,7 @@
 
 namespace probegi::vulkan {
 
-// What src/vulkan/shaders/scene.glsl reads at: GLSL's scalar layout has no gaps, so neither may C++'s.
+// Offsets that src/vulkan/shaders/scene.glsl reads: GLSL's scalar layout has no padding, so neither may C++'s.
 static_assert(sizeof(kernels::GpuVertex) == 32 && offsetof(kernels::GpuVertex, uv) == 24);
 static_assert(sizeof(kernels::GpuTriangle) == 16 && offsetof(kernels::GpuTriangle, material) == 12);
 static_assert(sizeof(kernels::GpuMesh) == 20 && offsetof(kernels::GpuMesh, firstTangent) == 16);
@@ -28,8 +28,8 @@ static_assert(sizeof(kernels::GpuSky) == 20 && offsetof(kernels::GpuSky, width) 
 static_assert(sizeof(kernels::SceneAddresses) == 140 && offsetof(kernels::SceneAddresses, sky) == 96 &&
               offsetof(kernels::SceneAddresses, magnitude) == 120);
 
-/// A SceneGeometry as records and raw arrays, each to become one buffer (kernels::SceneAddresses names them). Arrays
-/// that the scene has no use for are empty.
+/// A SceneGeometry as records and raw arrays, each of which becomes a buffer (see kernels::SceneAddresses). Unused
+/// arrays are empty.
 struct SceneData {
     std::vector<kernels::GpuVertex> vertices;
     std::vector<kernels::GpuTriangle> triangles;
@@ -39,23 +39,23 @@ struct SceneData {
     std::vector<kernels::GpuInstance> instances;  ///< by placement
     std::vector<kernels::GpuMaterial> materials;  ///< in the scene's order
     std::vector<kernels::GpuTexture> textures;
-    std::vector<std::uint32_t> texels;  ///< RGBA8 of every image that a triangle shows and of its mips, each once
+    std::vector<std::uint32_t> texels;  ///< RGBA8 of every image in use and of its mips, each once
     std::vector<float> srgbTable;       ///< 256 values
     std::vector<kernels::GpuEmitter> emitters;
 };
 
-/// Geometry, emitters and mips must have been made of the scene. Without mips look-ups stay on level 0.
+/// Geometry, emitters and mips must have been made from the scene. Without mips, look-ups use level 0.
 SceneData packScene(const SceneGeometry& geometry, const EmitterSet& emitters, const Scene& scene,
                     const MipMaps& mips = {});
 
 std::vector<kernels::GpuEmitter> packEmitters(const EmitterSet& emitters);
 
-/// One record of SceneData::instances: for placements that move.
+/// One record of SceneData::instances, for moving placements.
 kernels::GpuInstance packInstance(const Placement& placement);
 
 std::vector<kernels::GpuLight> packLights(std::span<const PlacedLight> lights);
 
-/// The image's pixels are uploaded as they are.
+/// The image's pixels are uploaded unchanged.
 kernels::GpuSky packSky(const Sky& sky);
 
 }  // namespace probegi::vulkan
