@@ -14,7 +14,7 @@ public:
     /// `size`: of the G-buffer. The picture is twice as wide: without the probes, with them.
     Renderer(const EngineDevice& engine, MemoryPool& pool, vk::Extent2D size);
 
-    /// Whose probes are asked. Not while a frame is in flight.
+    /// Selects the volume to query. Not while a frame is in flight.
     void useProbes(const probegi::vulkan::GpuField& volume) { m_probes.write(volume); }
     /// `frame`: address of FrameData.
     void recordGBuffer(const vk::raii::CommandBuffer& commands, vk::DeviceAddress frame) const;

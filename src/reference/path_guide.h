@@ -46,7 +46,7 @@ public:
         float weights[kMaxBoxes];
     };
 
-    /// For learning: the regions are filled in afterwards.
+    /// For learning: the regions are set afterwards.
     explicit PathGuide(const VolumeDesc& grid);
 
     /// The region of a point that faces `normal`, 0..regionCount()-1. Points outside the grid belong to its edge.
