@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "field/grid_volume.h"
 #include "kernels/trace/ray_set.h"
 
 namespace probegi::bench {
@@ -51,6 +52,7 @@ RoomField::RoomField(LeakGuard guard, glm::ivec3 counts, int raysPerProbe)
     : m_context(*Context::create({.threads = 1})),
       m_desc(makeDesc(guard, counts, raysPerProbe)),
       m_layout(m_desc),
+      m_volume(gridVolume(m_desc.grid, m_layout.maxDistance)),
       m_storage(m_layout),
       m_irradianceTaps(makeTapTable(m_desc.irradianceTexels)),
       m_visibilityTaps(makeTapTable(m_desc.visibilityTexels)) {
@@ -65,18 +67,18 @@ RoomField::RoomField(LeakGuard guard, glm::ivec3 counts, int raysPerProbe)
 }
 
 FieldView RoomField::view() const {
-    FieldView view;
-    view.desc = &m_desc;
-    view.irradiance = m_storage.irradiance.data();
-    view.visibility = m_storage.visibility.data();
-    view.backfaceShare = m_storage.backfaceShare.data();
-    view.irradianceTaps = &m_irradianceTaps;
-    view.visibilityTaps = &m_visibilityTaps;
-    const glm::vec3& s = m_desc.grid.spacing;
-    view.inverseSpacing = 1.0f / s;
-    view.minSpacing = std::min({s.x, s.y, s.z});
-    view.inverseMaxDistance = 1.0f / m_layout.maxDistance;
-    return view;
+    return {.volumes = {&m_volume, 1},
+            .slots = int(m_layout.probes),
+            .irradianceTexels = m_desc.irradianceTexels,
+            .visibilityTexels = m_desc.visibilityTexels,
+            .selfShadowBias = m_desc.selfShadowBias,
+            .guard = m_desc.guard,
+            .rules = m_desc.rules,
+            .irradiance = m_storage.irradiance.data(),
+            .visibility = m_storage.visibility.data(),
+            .backfaceShare = m_storage.backfaceShare.data(),
+            .irradianceTaps = &m_irradianceTaps,
+            .visibilityTaps = &m_visibilityTaps};
 }
 
 std::vector<FieldQuery> RoomField::screenPoints(int width, int height) const {

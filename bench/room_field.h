@@ -28,6 +28,7 @@ private:
     Context m_context;
     FieldDesc m_desc;
     FieldLayout m_layout;
+    kernels::Volume m_volume;
     FieldStorage m_storage;
     TapTable m_irradianceTaps, m_visibilityTaps;
     std::vector<glm::vec3> m_directions;

@@ -6,6 +6,7 @@
 
 #include "core/parallel.h"
 #include "cpu/solid_probes.h"
+#include "field/grid_volume.h"
 #include "field/probe_emitters.h"
 #include "kernels/probe/irradiance_decoding.h"
 #include "kernels/probe/storage.h"
@@ -16,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// What the query's 32-bit gathers reach (cpu/leak_guards-inl.h): 16 GiB of visibility.
+// What the query's 32-bit gathers reach (cpu/lane_access-inl.h): 16 GiB of visibility.
 constexpr std::size_t kMostVisibilityTexels = std::size_t(1) << 32;
 
 double millisecondsSince(Clock::time_point start) {
@@ -40,22 +41,25 @@ CpuField::CpuField(const Context& context, const FieldDesc& desc)
     : m_context(context),
       m_desc(desc),
       m_layout(desc),
+      m_volume(gridVolume(desc.grid, m_layout.maxDistance)),
       m_storage(m_layout),
       m_irradianceTaps(makeTapTable(desc.irradianceTexels)),
       m_visibilityTaps(makeTapTable(desc.visibilityTexels)) {}
 
 FieldView CpuField::view(const FieldDesc& desc) const noexcept {
-    const glm::vec3& s = desc.grid.spacing;
-    return {.desc = &desc,
+    return {.volumes = {&m_volume, 1},
+            .slots = int(m_layout.probes),
+            .irradianceTexels = desc.irradianceTexels,
+            .visibilityTexels = desc.visibilityTexels,
+            .selfShadowBias = desc.selfShadowBias,
+            .guard = desc.guard,
+            .rules = desc.rules,
             .irradiance = m_storage.irradiance.data(),
             .visibility = m_storage.visibility.data(),
             .backfaceShare = m_storage.backfaceShare.data(),
             .fallbacks = &m_fallbacks,
             .irradianceTaps = &m_irradianceTaps,
-            .visibilityTaps = &m_visibilityTaps,
-            .inverseSpacing = 1.0f / s,
-            .minSpacing = std::min({s.x, s.y, s.z}),
-            .inverseMaxDistance = 1.0f / m_layout.maxDistance};
+            .visibilityTaps = &m_visibilityTaps};
 }
 
 void CpuField::blend(const UpdateFrame& frame, std::span<const RayDatum> rayData,

@@ -37,6 +37,7 @@ private:
     Context m_context;
     FieldDesc m_desc;  // as it was made: sizes, not the guard
     FieldLayout m_layout;
+    kernels::Volume m_volume;
     FieldStorage m_storage;
     TapTable m_irradianceTaps, m_visibilityTaps;
     std::vector<RayDatum> m_rayData;

@@ -3,8 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/parallel.h"
-#include "kernels/volume/gpu_volume.h"
-#include "kernels/volume/probe_cage.h"
+#include "kernels/volume/volume_frame.h"
 
 namespace probegi {
 
@@ -12,21 +11,21 @@ namespace {
 
 // Steps into the open by way of the 26 neighbours.
 std::uint32_t stepsByNeighbours(const FieldView& view, std::span<const kernels::ProbeSides> sides, int probe) {
-    const GridDesc& grid = view.desc->grid;
-    const glm::ivec3 cell = kernels::gpuProbeCell(probe, grid.counts);
-    const glm::ivec3 lowest = glm::max(cell - 1, glm::ivec3(0)), highest = glm::min(cell + 1, grid.counts - 1);
+    const kernels::Volume& volume = view.volumes[0];
+    const glm::ivec3 cell = kernels::probeCell(volume, probe);
+    const glm::ivec3 lowest = glm::max(cell - 1, glm::ivec3(0)), highest = glm::min(cell + 1, volume.counts - 1);
     std::uint32_t steps = kernels::kNoWayOut;
     for (int z = lowest.z; z <= highest.z; ++z)
         for (int y = lowest.y; y <= highest.y; ++y)
             for (int x = lowest.x; x <= highest.x; ++x) {
-                const int neighbour = kernels::probeNumber({x, y, z}, grid.counts);
+                const int neighbour = kernels::probeSlot(volume, {x, y, z});
                 const std::uint32_t by = kernels::stepsBy(sides[std::size_t(neighbour)].steps);
                 if (by >= steps || neighbour == probe) continue;
-                const glm::vec3 way = glm::vec3(glm::ivec3(x, y, z) - cell) * grid.spacing;
+                const glm::vec3 way = glm::vec3(glm::ivec3(x, y, z) - cell) * volume.spacing;
                 const float distance = glm::length(way);
-                const glm::vec3 direction = way / distance;
+                const glm::vec3 direction = kernels::toWorldDirection(volume, way / distance);
                 if (kernels::freeWay(probeMoments(view, probe, direction).x,
-                                     probeMoments(view, neighbour, -direction).x, distance * view.inverseMaxDistance))
+                                     probeMoments(view, neighbour, -direction).x, distance * volume.inverseMaxDistance))
                     steps = by;
             }
     return steps;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cpu/probe_query.h"
+#include "field/grid_volume.h"
 
 namespace probegi {
 namespace {
@@ -23,11 +24,13 @@ struct Volume {
         sides.assign(60, {0.5f, 0.5f, kernels::kNoWayOut, kernels::kNoWayOut, kernels::kMostTrust});
     }
     void find() {
+        kernels::Volume volume = gridVolume(desc.grid, 4.0f);
         FieldView view;
-        view.desc = &desc;
+        view.volumes = {&volume, 1};
+        view.slots = 60;
+        view.visibilityTexels = desc.visibilityTexels;
         view.visibility = visibility.data();
         view.visibilityTaps = &taps;
-        view.inverseMaxDistance = 0.25f;
         findSolidProbes(*Context::create({.threads = 2}), view, sides);
     }
     static std::size_t at(int x, int y, int z) { return std::size_t(x + 5 * (y + 4 * z)); }

@@ -8,10 +8,6 @@
 
 KERNELS_BEGIN
 
-// The order of probegi::LeakGuard.
-KERNEL_CONST int kGuardNone = 0;
-KERNEL_CONST int kGuardMoments = 1;
-
 struct GpuVolume {
     vec3 origin;           // metres
     float minSpacing;      // metres
@@ -20,7 +16,7 @@ struct GpuVolume {
     vec3 inverseSpacing;
     float inverseMaxDistance;
     ivec3 counts;
-    int guard;
+    int guard;  // kernels/guards/guards.h
     vec2 irradianceTexelSize;  // of the atlas, in texture coordinates
     vec2 visibilityTexelSize;
     int irradianceTexels;  // side of a map without border

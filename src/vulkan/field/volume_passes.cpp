@@ -1,6 +1,7 @@
 #include <limits>
 
 #include "core/sentence.h"
+#include "field/guard_number.h"
 #include "field/probe_emitters.h"
 #include "kernels/abi/gpu_passes.h"
 #include "kernels/lookup/probe_query.h"
@@ -99,7 +100,7 @@ kernels::GpuVolume VolumePasses::constants(LeakGuard guard) const {
             .inverseSpacing = 1.0f / grid.spacing,
             .inverseMaxDistance = 1.0f / m_layout.maxDistance,
             .counts = grid.counts,
-            .guard = guard == LeakGuard::none ? kernels::kGuardNone : kernels::kGuardMoments,
+            .guard = guardNumber(guard),
             .irradianceTexelSize = texelSize(m_irradiance),
             .visibilityTexelSize = texelSize(m_visibility),
             .irradianceTexels = m_desc.irradianceTexels,

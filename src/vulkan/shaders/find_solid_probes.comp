@@ -26,7 +26,7 @@ uint stepsByNeighbours(int probe) {
                 const vec3 way = vec3(at - cell) * probegiVolume.spacing;
                 const float distance = length(way);
                 const vec3 direction = way / distance;
-                if (freeWay(probegiMoments(cell, direction).x, probegiMoments(at, -direction).x,
+                if (freeWay(probegiMoments(probe, direction).x, probegiMoments(neighbour, -direction).x,
                             distance * probegiVolume.inverseMaxDistance))
                     steps = by;
             }

@@ -8,19 +8,17 @@
 //     color += albedo * e / 3.14159265;                        // what a Lambert surface reflects
 //
 // Needs GLSL 4.60 and GL_EXT_scalar_block_layout. All names begin with probegi, PROBEGI, or are those of the kernels
-// below. With PROBEGI_COUNT_FALLBACKS defined, queries that no probe of their cage could answer are counted for
+// below. With PROBEGI_COUNT_FALLBACKS defined, queries whose cage had too little weight are counted for
 // Field::fallbackQueries(); the stage then needs atomics on storage buffers.
 #ifndef PROBEGI_QUERY_GLSL
 #define PROBEGI_QUERY_GLSL
 
 #extension GL_EXT_scalar_block_layout : require
 
-#include "kernels/volume/gpu_volume.h"
-#include "kernels/probe/irradiance_decoding.h"
+#include "kernels/lookup/access.h"
 #include "kernels/probe/octahedral.h"
-#include "kernels/volume/probe_cage.h"
-#include "kernels/lookup/probe_neighbours.h"
-#include "kernels/lookup/surface_gradient.h"
+#include "kernels/volume/gpu_volume.h"
+#include "kernels/volume/volume_choice.h"
 
 #ifndef PROBEGI_SET
 #define PROBEGI_SET 0
@@ -45,157 +43,115 @@ layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 3, scalar) PROBEGI_STATES_
 }
 probegiStates;
 
+// The field's volumes.
+int probegiVolumeCount() {
+    return 1;
+}
+Volume probegiVolumeAt(int i) {
+    Volume v;
+    v.origin = probegiVolume.origin;
+    v.minSpacing = probegiVolume.minSpacing;
+    v.spacing = probegiVolume.spacing;
+    v.firstSlot = 0;
+    v.inverseSpacing = probegiVolume.inverseSpacing;
+    v.inverseMaxDistance = probegiVolume.inverseMaxDistance;
+    v.counts = probegiVolume.counts;
+    v.turned = 0;
+    v.orientation = vec4(0.0, 0.0, 0.0, 1.0);
+    v.phase = ivec3(0);
+    return v;
+}
+
 // For ray data of your own: how many probes there are, and where each stands. Its rays begin there.
 int probegiProbeCount() {
-    return probegiVolume.counts.x * probegiVolume.counts.y * probegiVolume.counts.z;
+    return volumeProbes(probegiVolumeAt(0));
 }
 vec3 probegiProbePosition(int probe) {
-    return probePlace(gpuProbeCell(probe, probegiVolume.counts), probegiVolume.origin, probegiVolume.spacing);
+    const Volume v = probegiVolumeAt(0);
+    return probePosition(v, probeCell(v, probe));
 }
 
-// What a probe stores towards a normal, encoded. `texel`: octTexelPosition of the normal.
-vec3 probegiStored(ivec3 cell, vec2 texel) {
-    const vec2 at = gpuAtlasCoordinates(cell, texel, probegiVolume.irradianceTexels, probegiVolume.irradianceTexelSize);
-    return textureLod(probegiIrradianceAtlas, vec3(at, float(cell.z)), 0.0).rgb;
+// Texture coordinates of a point of a slot's map, `texel`: octTexelPosition().
+vec3 probegiIrradianceAt(int slot, vec2 texel) {
+    const ivec3 tile = gpuProbeCell(slot, probegiVolume.counts);
+    return vec3(gpuAtlasCoordinates(tile, texel, probegiVolume.irradianceTexels, probegiVolume.irradianceTexelSize),
+                float(tile.z));
+}
+vec3 probegiVisibilityAt(int slot, vec2 texel) {
+    const ivec3 tile = gpuProbeCell(slot, probegiVolume.counts);
+    return vec3(gpuAtlasCoordinates(tile, texel, probegiVolume.visibilityTexels, probegiVolume.visibilityTexelSize),
+                float(tile.z));
 }
 
-// Mean and mean square of distance, as fractions of the farthest, that a probe stores in a direction.
-vec2 probegiMoments(ivec3 cell, vec3 direction) {
-    const vec2 texel = octTexelPosition(octEncode(direction), probegiVolume.visibilityTexels);
-    const vec2 at = gpuAtlasCoordinates(cell, texel, probegiVolume.visibilityTexels, probegiVolume.visibilityTexelSize);
-    return textureLod(probegiVisibilityAtlas, vec3(at, float(cell.z)), 0.0).rg;
-}
-
-// Leak guard: how far a probe of the cage may be used. `fromProbe`: to the biased point, metres.
-float probegiGuard(ivec3 cell, vec3 fromProbe) {
-    if (probegiVolume.guard == kGuardNone) return 1.0;
-    const vec2 moments = probegiMoments(cell, fromProbe);
-    return chebyshevWeight(moments.x, moments.y, length(fromProbe) * probegiVolume.inverseMaxDistance,
-                           probegiVolume.rules);
-}
-
-// The same for the neighbours of a cage that does not know.
-float probegiNeighbourGuard(ivec3 cell, vec3 fromProbe) {
-    if (probegiVolume.guard == kGuardNone) return 1.0;
-    return neighbourVisibility(probegiMoments(cell, fromProbe),
-                               (length(fromProbe) + kNoLength) * probegiVolume.inverseMaxDistance);
-}
-
-// How far a probe may be used at all.
-float probegiOutside(ivec3 cell) {
-    return outsideWeight(probegiStates.backfaceShare[probeNumber(cell, probegiVolume.counts)], probegiVolume.rules);
-}
-
-// What a probe answers in the space in which probes are blended.
-vec3 probegiRoot(ivec3 cell, vec2 texel) {
-    const vec3 stored = probegiStored(cell, texel);
-    return vec3(decodeToBlendSpace(stored.x), decodeToBlendSpace(stored.y), decodeToBlendSpace(stored.z));
-}
-
-// E where the cage does not know; `base`: its lowest probe.
-vec3 probegiNeighbours(vec3 position, vec3 normal, vec3 bias, ivec3 base, vec2 texel) {
-    vec3 sum = vec3(0.0);
-    float weightSum = 0.0;
-    for (int i = 0; i < kNeighbours; ++i) {
-        const ivec3 cell = neighbourCell(base, i);
-        if (!isInGrid(cell, probegiVolume.counts)) continue;
-        const float outside = probegiOutside(cell);
-        if (outside <= 0.0) continue;
-        const vec3 toProbe = probePlace(cell, probegiVolume.origin, probegiVolume.spacing) - position;
-        const float visible = probegiNeighbourGuard(cell, bias - toProbe);
-        const float weight = neighbourWeight(outside, toProbe, normal, visible, probegiVolume.minSpacing);
-        const vec3 stored = probegiStored(cell, texel);
-        sum += weight * kPi * vec3(decodeIrradiance(stored.x), decodeIrradiance(stored.y), decodeIrradiance(stored.z));
-        weightSum += weight;
-    }
-    return weightSum > 0.0 ? sum / weightSum : vec3(0.0);
-}
-
-// Which layer of probes tells how light changes along a normal (kernels/lookup/surface_gradient.h).
-struct ProbegiFront {
-    int axis;
-    int side;     // 1 or 0: the cage's layer in front, along the axis
-    ivec3 step;   // to the layer beyond
-    float trust;  // 0 where that layer is not in the grid
+// How the look-up reads the field: what kernels/lookup/access.h asks for.
+struct Access {
+    int rules;
+    int guard;
+    float selfShadowBias;
 };
+#define MapPoint vec2
 
-ProbegiFront probegiFront(vec3 normal, ivec3 base) {
-    ProbegiFront front;
-    front.axis = dominantAxis(normal);
-    front.side = normal[front.axis] > 0.0 ? 1 : 0;
-    front.step = ivec3(0);
-    front.step[front.axis] = 2 * front.side - 1;
-    const int beyond = base[front.axis] + (front.side == 1 ? 2 : -1);
-    const bool known =
-        probegiVolume.rules == kRulesMeasured && beyond >= 0 && beyond < probegiVolume.counts[front.axis];
-    front.trust = known ? axisTrust(normal) : 0.0;
-    return front;
+Access probegiAccess() {
+    Access access;
+    access.rules = probegiVolume.rules;
+    access.guard = probegiVolume.guard;
+    access.selfShadowBias = probegiVolume.selfShadowBias;
+    return access;
 }
-
-// How far a probe in front and the one beyond may tell.
-float probegiPair(ivec3 cell, ProbegiFront front) {
-    const float outside = probegiOutside(cell + front.step);
-    if (probegiVolume.guard == kGuardNone) return outside;
-    const vec2 moments = probegiMoments(cell, vec3(front.step));
-    return outside * chebyshevWeight(moments.x, moments.y,
-                                     probegiVolume.spacing[front.axis] * probegiVolume.inverseMaxDistance,
-                                     probegiVolume.rules);
+vec2 visibilityPoint(Access access, vec3 direction) {
+    return octTexelPosition(octEncode(direction), probegiVolume.visibilityTexels);
 }
-
-// Irradiance E in W m^-2 at a point of a surface that faces `normal`, seen from the direction `viewer` (both unit; zero
-// stands for the normal, where nobody looks). Outside the volume its nearest cell answers.
-vec3 probegiIrradiance(vec3 point, vec3 normal, vec3 viewer) {
-    const vec3 toViewer = viewerOf(viewer, normal);
-    const ivec3 counts = probegiVolume.counts;
-    const int rules = probegiVolume.rules;
-    const float minSpacing = probegiVolume.minSpacing;
-    const vec3 position = clampToGrid(point, probegiVolume.origin, probegiVolume.spacing, counts);
-    const vec3 bias = visibilityBias(normal, toViewer, minSpacing, probegiVolume.selfShadowBias, rules);
-    const vec3 moved = position + cageBias(normal, toViewer, minSpacing, probegiVolume.selfShadowBias, rules);
-    const vec3 local = gridCoordinates(moved, probegiVolume.origin, probegiVolume.inverseSpacing);
-    const vec3 base = cageBase(local, counts);
-    const vec3 alpha = cageAlpha(local, base);
-    const vec2 texel = octTexelPosition(octEncode(normal), probegiVolume.irradianceTexels);
-    const ProbegiFront front = probegiFront(normal, ivec3(base));
-    // The pair's weight is that of the probe in front, without the share that the point's depth gives to its layer.
-    const float alongAxis = trilinearFactor(float(front.side), alpha[front.axis]);
-    vec3 sum = vec3(0.0);
-    vec3 rise = vec3(0.0);
-    float weightSum = 0.0;
-    float ahead = 0.0;
-    float pairWeight = 0.0;
-    for (int i = 0; i < 8; ++i) {
-        const ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
-        const ivec3 cell = ivec3(base) + corner;
-        const vec3 toProbe = probePlace(cell, probegiVolume.origin, probegiVolume.spacing) - position;
-        const float cosToProbe = cosineToProbe(dot(toProbe, normal), length(toProbe), minSpacing);
-        const float trilinear = trilinearFactor(float(corner.x), alpha.x) * trilinearFactor(float(corner.y), alpha.y) *
-                                trilinearFactor(float(corner.z), alpha.z);
-        const float weight = crushWeight(backfaceWeight(cosToProbe, rules) * probegiGuard(cell, bias - toProbe)) *
-                             trilinear * probegiOutside(cell);
-        const vec3 root = probegiRoot(cell, texel);
-        sum += weight * root;
-        weightSum += weight;
-        ahead += weight * dot(toProbe, normal);
-        if (front.trust > 0.0 && corner[front.axis] == front.side) {
-            const float pair = weight / alongAxis * probegiPair(cell, front);
-            rise += pair * (probegiRoot(cell + front.step, texel) - root);
-            pairWeight += pair;
-        }
-    }
-    if (rules == kRulesPaper || weightSum >= kDoubtful) {
-        const vec3 root = sum / weightSum;
-        if (front.trust <= 0.0) return root * root * kPi;
-        const float cells = cellsAhead(ahead / weightSum, probegiVolume.spacing[front.axis], normal[front.axis]);
-        const vec3 there = vec3(rootAtSurface(root.x, rise.x, pairWeight, cells, front.trust),
-                                rootAtSurface(root.y, rise.y, pairWeight, cells, front.trust),
-                                rootAtSurface(root.z, rise.z, pairWeight, cells, front.trust));
-        return there * there * kPi;
-    }
+vec2 irradiancePoint(Access access, vec3 normal) {
+    return octTexelPosition(octEncode(normal), probegiVolume.irradianceTexels);
+}
+vec2 axisPoint(Access access, Volume v, int axis, bool up) {
+    return visibilityPoint(access, axisDirection(v, axis, up));
+}
+void storedMoments(Access access, int slot, vec2 at, out float mean, out float meanSquare) {
+    const vec2 moments = textureLod(probegiVisibilityAtlas, probegiVisibilityAt(slot, at), 0.0).rg;
+    mean = moments.x;
+    meanSquare = moments.y;
+}
+void momentsOnAxis(Access access, Volume v, int slot, vec2 at, out float mean, out float meanSquare) {
+    storedMoments(access, slot, at, mean, meanSquare);
+}
+float storedBackfaceShare(Access access, int slot) {
+    return probegiStates.backfaceShare[slot];
+}
+vec3 storedIrradiance(Access access, int slot, vec2 at) {
+    return textureLod(probegiIrradianceAtlas, probegiIrradianceAt(slot, at), 0.0).rgb;
+}
+float givenVisibility(Access access, int corner) {
+    return 1.0;
+}
+void countFallback(Access access) {
 #ifdef PROBEGI_COUNT_FALLBACKS
     atomicAdd(probegiStates.fallbacks, 1u);
 #endif
-    return completedByNeighbours(sum, weightSum, probegiNeighbours(position, normal, bias, ivec3(base), texel));
+}
+
+#include "kernels/lookup/irradiance.h"
+
+// Mean and mean square of distance, as fractions of the farthest, that a probe stores in a direction.
+vec2 probegiMoments(int slot, vec3 direction) {
+    const Access access = probegiAccess();
+    vec2 moments;
+    storedMoments(access, slot, visibilityPoint(access, direction), moments.x, moments.y);
+    return moments;
+}
+
+// The volume that answers at a point: the first that holds it, else the nearest.
+int probegiVolumeOf(vec3 point) {
+    if (probegiVolumeCount() == 1) return 0;
+    VolumeChoice choice = noVolume();
+    for (int i = 0; i < probegiVolumeCount(); ++i) choice = chooseVolume(choice, probegiVolumeAt(i), i, point);
+    return choice.volume;
+}
+
+// Irradiance E in W m^-2 at a point of a surface that faces `normal`, seen from the direction `viewer` (both unit; zero
+// stands for the normal, where nobody looks). Outside all volumes the nearest cell answers.
+vec3 probegiIrradiance(vec3 point, vec3 normal, vec3 viewer) {
+    return irradianceIn(probegiAccess(), probegiVolumeAt(probegiVolumeOf(point)), point, normal, viewer);
 }
 
 #endif
