@@ -26,8 +26,8 @@ vec3 queryIrradiance(FieldQuery q) {
         const vec2 moments = probegiMoments(slot, fromProbe);
         const float visible =
             chebyshevWeight(moments.x, moments.y, length(fromProbe) * v.inverseMaxDistance, kRulesPaper);
-        const float facing = backfaceWeight(
-            cosineToProbe(dot(toProbe, q.normal), length(toProbe), v.minSpacing), kRulesPaper);
+        const float facing =
+            backfaceWeight(cosineToProbe(dot(toProbe, q.normal), length(toProbe), v.minSpacing), kRulesPaper);
         const float weight = crushWeight(facing * visible) * trilinearFactor(float(corner.x), alpha.x) *
                              trilinearFactor(float(corner.y), alpha.y) * trilinearFactor(float(corner.z), alpha.z);
         const vec3 stored = storedIrradiance(access, slot, texel);

@@ -11,6 +11,8 @@
 
 #include <hwy/highway.h>
 
+#include <cstring>
+
 #include "kernels/lookup/cage_weights.h"
 #include "kernels/probe/octahedral.h"
 
@@ -158,6 +160,17 @@ HWY_INLINE void store(const Real& x, float* to) {
 HWY_INLINE void store(const Int& x, std::int32_t* to) {
     hn::StoreU(x.lanes, kInts, to);
 }
+/// One lane's value.
+HWY_INLINE float laneOf(const Real& x, std::size_t lane) {
+    float value;
+    std::memcpy(&value, reinterpret_cast<const char*>(&x) + lane * sizeof(value), sizeof(value));
+    return value;
+}
+HWY_INLINE std::int32_t laneOf(const Int& x, std::size_t lane) {
+    std::int32_t value;
+    std::memcpy(&value, reinterpret_cast<const char*>(&x) + lane * sizeof(value), sizeof(value));
+    return value;
+}
 /// The values at base[index] of each lane.
 HWY_INLINE Real gather(const float* base, const Int& index) {
     return Real(hn::GatherIndex(kReals, base, index.lanes));
@@ -187,12 +200,13 @@ using kernels::select;
 #undef PROBEGI_KERNELS_CAGE_H
 #undef PROBEGI_KERNELS_CAGE_WEIGHTS_H
 #undef PROBEGI_KERNELS_GUARDS_H
+#undef PROBEGI_KERNELS_LIST_H
 #undef PROBEGI_KERNELS_OCTAHEDRAL_H
 #undef PROBEGI_KERNELS_PROBE_CAGE_H
 #undef PROBEGI_KERNELS_PROBE_QUERY_H
 #undef PROBEGI_KERNELS_SURFACE_GRADIENT_H
 #undef PROBEGI_KERNELS_VOLUME_FRAME_H
-#define KERNELS_IN_LANES  // for the headers of kernels/guards, whose names only guards.h knows
+#define KERNELS_IN_LANES  // for the headers of kernels/guards, whose names only list.h knows
 #include "kernels/lookup/cage_weights.h"
 #include "kernels/probe/octahedral.h"
 #undef KERNELS_IN_LANES

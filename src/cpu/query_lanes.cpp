@@ -38,11 +38,6 @@ struct alignas(64) Block {
     std::array<Reals, 3> position, normal, toViewer;
     std::array<Ints, 4> offset;       // the normal's footprint: halves from the beginning of a probe's map
     std::array<Reals, 4> tapWeight;   // and its weights, times kHalfRebase
-    std::array<Ints, 8> slot;         // kernels/lookup/cage_weights.h, point by point: of the cage's probes
-    std::array<Reals, 8> weight;      // and their weights
-    std::array<Ints, 4> front;        // corners in front of the surface
-    std::array<Reals, 4> pair;        // weight of each with the probe beyond it
-    Ints step;                        // from a slot in front to the one beyond
     std::array<Reals, 3> root, rise;  // weighted sums
 };
 
@@ -100,21 +95,8 @@ HWY_INLINE void findFootprints(const FieldView& view, const Real3& normal, Block
     lanes::store(f.fx * y1, block.tapWeight[3].data());
 }
 
-// The weights of a block, for gatherLight().
-HWY_INLINE void storeWeights(const CageWeights& w, Block& block) {
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-        lanes::store(w.slot[corner], block.slot[corner].data());
-        lanes::store(w.weight[corner], block.weight[corner].data());
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-        lanes::store(lanes::frontCorner(w.axis, w.up, int(k)), block.front[k].data());
-        lanes::store(w.pair[k], block.pair[k].data());
-    }
-    lanes::store(w.step, block.step.data());
-}
-
 // Weighted sums of what the probes of one point's cage store, and of what those beyond have more.
-HWY_INLINE void gatherLight(const FieldView& view, std::size_t i, bool beyond, Block& block) {
+HWY_INLINE void gatherLight(const FieldView& view, const CageWeights& w, std::size_t i, bool beyond, Block& block) {
     const std::size_t halvesPerProbe = 3 * std::size_t(view.irradianceTexels * view.irradianceTexels);
     Footprint4 f;
     for (std::size_t tap = 0; tap < 4; ++tap) {
@@ -124,20 +106,21 @@ HWY_INLINE void gatherLight(const FieldView& view, std::size_t i, bool beyond, B
     std::array<Texel, 8> roots;
     Texel root = hn::Zero(kTexel);
     for (std::size_t corner = 0; corner < 8; ++corner) {
-        roots[corner] = storedRoot(view.irradiance + std::size_t(block.slot[corner][i]) * halvesPerProbe, f);
-        root = hn::MulAdd(hn::Set(kTexel, block.weight[corner][i]), roots[corner], root);
+        roots[corner] = storedRoot(view.irradiance + std::size_t(lanes::laneOf(w.slot[corner], i)) * halvesPerProbe, f);
+        root = hn::MulAdd(hn::Set(kTexel, lanes::laneOf(w.weight[corner], i)), roots[corner], root);
     }
     alignas(16) std::array<float, 4> sum;
     hn::Store(root, kTexel, sum.data());
     for (std::size_t c = 0; c < 3; ++c) block.root[c][i] = sum[c];
     if (!beyond) return;
 
+    const std::int32_t step = lanes::laneOf(w.step, i);
     Texel rise = hn::Zero(kTexel);
     for (std::size_t k = 0; k < 4; ++k) {
-        const std::size_t corner = std::size_t(block.front[k][i]);
-        const std::size_t beyondIt = std::size_t(block.slot[corner][i] + block.step[i]);
+        const std::size_t corner = std::size_t(lanes::laneOf(w.front[k], i));
+        const std::size_t beyondIt = std::size_t(lanes::laneOf(w.slot[corner], i) + step);
         const Texel more = hn::Sub(storedRoot(view.irradiance + beyondIt * halvesPerProbe, f), roots[corner]);
-        rise = hn::MulAdd(hn::Set(kTexel, block.pair[k][i]), more, rise);
+        rise = hn::MulAdd(hn::Set(kTexel, lanes::laneOf(w.pair[k], i)), more, rise);
     }
     hn::Store(rise, kTexel, sum.data());
     for (std::size_t c = 0; c < 3; ++c) block.rise[c][i] = sum[c];
@@ -152,11 +135,10 @@ HWY_INLINE void answer(const FieldView& view, const Access& access, const kernel
     const lanes::Cage cage = lanes::cageAround(volume, load(block.position), normal, load(block.toViewer),
                                                access.selfShadowBias, access.rules);
     const CageWeights w = lanes::weighCage(access, volume, cage);
-    storeWeights(w, block);
     alignas(64) Reals weightSum, known;
     lanes::store(w.weightSum, weightSum.data());
     lanes::store(w.trust * w.pairSum, known.data());
-    for (std::size_t i = 0; i < queries.size(); ++i) gatherLight(view, i, known[i] > 0.0f, block);
+    for (std::size_t i = 0; i < queries.size(); ++i) gatherLight(view, w, i, known[i] > 0.0f, block);
 
     const Real inverse = Real(1.0f) / w.weightSum;
     for (std::size_t c = 0; c < 3; ++c) {

@@ -14,8 +14,9 @@ struct CageAnswer {
     float weightSum;       ///< of the probes; below kernels::kDoubtful too little for an answer
 };
 
-/// Steps 1 to 3 of section 2.2 for each query in one volume of the field, with the fastest instructions that the processor has. `out` has room for
-/// as many answers as there are queries.
-void answerFromCages(const FieldView& view, const kernels::Volume& volume, std::span<const FieldQuery> queries, CageAnswer* out);
+/// Steps 1 to 3 of section 2.2 for each query in one volume of the field, with the fastest instructions that the
+/// processor has. `out` has room for as many answers as there are queries.
+void answerFromCages(const FieldView& view, const kernels::Volume& volume, std::span<const FieldQuery> queries,
+                     CageAnswer* out);
 
 }  // namespace probegi

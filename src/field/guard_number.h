@@ -2,12 +2,12 @@
 
 #include <string_view>
 
-#include "kernels/guards/guards.h"
+#include "kernels/guards/list.h"
 #include "probegi/field.h"
 
 namespace probegi {
 
-/// The number by which kernels know a guard: its row in the list of kernels/guards/guards.h.
+/// The number by which kernels know a guard: its row in the list of kernels/guards/list.h.
 constexpr int guardNumber(LeakGuard guard) {
     return int(guard);
 }

@@ -1,6 +1,6 @@
-// The types of kernels that answer several points abreast. In GLSL, and in plain C++, Real is float, Int is int, Bool
-// is bool and select() is the conditional operator. src/cpu/lanes-inl.h includes the same headers a second time in another
-// namespace where they hold as many values as the processor's vectors. So these kernels have no branches on Real.
+// The types of kernels that answer several points abreast. In GLSL and plain C++, Real is float, Int is int, Bool is
+// bool and select() is the conditional operator. src/cpu/lanes-inl.h includes the same headers a second time in another
+// namespace, where they hold as many values as the processor's vectors. So these kernels have no branches on Real.
 #ifndef PROBEGI_KERNELS_LANES_H
 #define PROBEGI_KERNELS_LANES_H
 

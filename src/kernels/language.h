@@ -1,8 +1,8 @@
 // What makes one text both GLSL 4.60 and C++20. Every kernel header includes this first and keeps to the common subset:
 // free functions, `f` on literals, no swizzles, no default arguments, no overloading on constness, OUT()/INOUT() for
-// results, IN() for structs that C++ passes by reference, no access to buffers. PRECISE before a variable's type forbids the compiler to fuse what goes into it (C++
-// fuses only for processors with FMA, where -ffp-contract=off forbids it). A header's text stands between KERNELS_BEGIN
-// and KERNELS_END and is guarded by macros (GLSL has no `#pragma once`).
+// results, IN() for structs that C++ passes by reference, no buffers. PRECISE before a variable's type forbids to fuse
+// what goes into it (C++ fuses only for processors with FMA, where -ffp-contract=off forbids it). A header's text
+// stands between KERNELS_BEGIN and KERNELS_END and is guarded by macros (GLSL has no `#pragma once`).
 #ifndef PROBEGI_KERNELS_LANGUAGE_H
 #define PROBEGI_KERNELS_LANGUAGE_H
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kernels/guards/guards.h"
+#include "kernels/guards/list.h"
 #include "kernels/guards/moments.h"
 #include "kernels/guards/none.h"
 #include "kernels/lookup/access.h"

@@ -89,8 +89,8 @@ TEST(Volume, probesThatStayKeepTheirSlots) {
 TEST(Volume, knowsItsCells) {
     const Volume v = makeVolume({2, 3, 4});
     EXPECT_TRUE(isInVolume(v, ivec3(0)) && isInVolume(v, {1, 2, 3}));
-    for (const ivec3 cell : {ivec3(-1, 0, 0), ivec3(0, -1, 0), ivec3(0, 0, -1), ivec3(2, 0, 0), ivec3(0, 3, 0),
-                             ivec3(0, 0, 4)})
+    for (const ivec3 cell :
+         {ivec3(-1, 0, 0), ivec3(0, -1, 0), ivec3(0, 0, -1), ivec3(2, 0, 0), ivec3(0, 3, 0), ivec3(0, 0, 4)})
         EXPECT_FALSE(isInVolume(v, cell));
     EXPECT_EQ(probePlace(v, {1, 2, 3}), vec3(1.5f, 4, 9));
 }
@@ -140,9 +140,9 @@ TEST(VolumeChoice, theFirstThatHoldsThePoint) {
         choice = chooseVolume(choice, near, 1, point);
         return chooseVolume(choice, near, 2, point).volume;
     };
-    EXPECT_EQ(choose(near.origin), 1);             // on its face
+    EXPECT_EQ(choose(near.origin), 1);  // on its face
     EXPECT_EQ(choose(far.origin + 0.1f), 0);
-    EXPECT_EQ(choose({50, 2, 3}), 1);              // outside of both
+    EXPECT_EQ(choose({50, 2, 3}), 1);  // outside of both
     EXPECT_EQ(choose({53, 2, 3}), 0);
     EXPECT_EQ(choose({51.25f, 2, 3}), 0);  // as far from both
 }

@@ -1,5 +1,5 @@
-// Chebyshev's test on the mean and mean square of the distances that probes store (sections 2.2 and 4.1). What a guard's
-// functions mean is in guards.h.
+// Chebyshev's test on the mean and mean square of the distances that probes store (sections 2.2 and 4.1). What a
+// guard's functions mean is in list.h.
 #if !defined(PROBEGI_KERNELS_MOMENTS_H) || defined(KERNELS_IN_LANES)
 #define PROBEGI_KERNELS_MOMENTS_H
 

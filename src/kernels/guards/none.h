@@ -1,4 +1,4 @@
-// The leaking baseline: every probe is as good as its place. What a guard's functions mean is in guards.h.
+// The leaking baseline: every probe is as good as its place. What a guard's functions mean is in list.h.
 #if !defined(PROBEGI_KERNELS_NONE_H) || defined(KERNELS_IN_LANES)
 #define PROBEGI_KERNELS_NONE_H
 

@@ -1,9 +1,9 @@
-// What a look-up asks of whoever includes it. The text of kernels/guards, cage_weights.h, gather.h and irradiance.h knows
-// a field by an Access alone. In GLSL that is a struct, defined before these headers are included, as are the functions
-// below; in C++ a class of any name, for the text is templates there, with its functions beside it.
+// What a look-up asks of whoever includes it. The text of kernels/guards, cage_weights.h, gather.h and irradiance.h
+// knows a field by an Access alone. In GLSL that is a struct, defined before these headers are included, as are the
+// functions below; in C++ a class of any name, for the text is templates there, with its functions beside it.
 //
 //     int rules;             // members: kRulesMeasured or kRulesPaper
-//     int guard;             // number of the leak guard (kernels/guards/guards.h)
+//     int guard;             // number of the leak guard (kernels/guards/list.h)
 //     float selfShadowBias;  // FieldSettings'
 //
 //     MapPoint               // a type, in C++ a member of Access: where a direction lies in the probes' maps
@@ -30,7 +30,7 @@
 #include "kernels/volume/volume_frame.h"
 
 #ifdef __cplusplus
-#define LOOKUP_FN       \
+#define LOOKUP_FN           \
     template <class Access> \
     KERNEL_FN
 #define OF_ACCESS(T) typename Access::T

@@ -22,7 +22,8 @@ LOOKUP_FN vec3 neighboursIrradiance(IN(Access) access, IN(Volume) v, IN(Cage) ca
         const float visible = guardFar(access, v, slot, cage.bias - toProbe);
         const float weight = neighbourWeight(outside, toProbe, cage.normal, visible, v.minSpacing);
         const vec3 stored = storedIrradiance(access, slot, at);
-        sum += weight * (vec3(decodeIrradiance(stored.x), decodeIrradiance(stored.y), decodeIrradiance(stored.z)) * kPi);
+        sum +=
+            weight * (vec3(decodeIrradiance(stored.x), decodeIrradiance(stored.y), decodeIrradiance(stored.z)) * kPi);
         weightSum += weight;
     }
     return weightSum > 0.0f ? sum / weightSum : vec3(0.0f);

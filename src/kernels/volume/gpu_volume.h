@@ -16,7 +16,7 @@ struct GpuVolume {
     vec3 inverseSpacing;
     float inverseMaxDistance;
     ivec3 counts;
-    int guard;  // kernels/guards/guards.h
+    int guard;                 // kernels/guards/list.h
     vec2 irradianceTexelSize;  // of the atlas, in texture coordinates
     vec2 visibilityTexelSize;
     int irradianceTexels;  // side of a map without border

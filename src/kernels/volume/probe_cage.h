@@ -28,7 +28,8 @@ KERNEL_FN Real3 cageAlpha(Real3 gridPosition, Real3 base) {
     return clamp(gridPosition - base, vec3(0.0f), vec3(1.0f));
 }
 
-// The slots of a cage's probes: each axis has two places in its ring, and scrolling may put them at the ring's two ends.
+// The slots of a cage's probes: each axis has two places in its ring, and scrolling may put them at the ring's two
+// ends.
 struct CageSlots {
     Int x[2];
     Int y[2];
@@ -65,8 +66,8 @@ KERNEL_FN Int cornerSlot(IN(Volume) v, IN(CageSlots) slots, int corner) {
     return slots.x[corner & 1] + slots.y[(corner >> 1) & 1] + slots.z[corner >> 2] + v.firstSlot;
 }
 
-// The probes around a cage that are asked where it has too little weight: those that share a face with it, four a side. The
-// rest of the 4 x 4 x 4 block was measured to change nothing.
+// The probes around a cage that are asked where it has too little weight: those that share a face with it, four a side.
+// The rest of the 4 x 4 x 4 block was measured to change nothing.
 KERNEL_CONST int kNeighbours = 24;
 
 // Place in the grid of the i-th neighbour of the cage with the lowest probe `base`; it may lie outside the grid.

@@ -17,8 +17,8 @@ KERNEL_FN Cage takeCage(INOUT(Lane) lane, Volume v) {
     cage.base = vec3(min(cell, v.counts - ivec3(2)));
     cage.alpha = alpha;
     cage.position = v.origin + (cage.base + alpha) * v.spacing;
-    cage.normal = normalize(axis == 0 ? vec3(side, tilt, lean)
-                                      : (axis == 1 ? vec3(lean, side, tilt) : vec3(tilt, lean, side)));
+    cage.normal =
+        normalize(axis == 0 ? vec3(side, tilt, lean) : (axis == 1 ? vec3(lean, side, tilt) : vec3(tilt, lean, side)));
     cage.bias = cage.normal * (0.2f * v.minSpacing);
     return cage;
 }
