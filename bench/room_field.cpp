@@ -66,16 +66,18 @@ RoomField::RoomField(LeakGuard guard, glm::ivec3 counts, int raysPerProbe)
 }
 
 FieldView RoomField::view() const {
-    FieldView view;
-    view.desc = &m_desc;
-    view.settings = &m_settings;
-    view.volumes = m_volumes;
-    view.irradiance = m_storage.irradiance.data();
-    view.visibility = m_storage.visibility.data();
-    view.backfaceShare = m_storage.backfaceShare.data();
-    view.irradianceTaps = &m_irradianceTaps;
-    view.visibilityTaps = &m_visibilityTaps;
-    return view;
+    return {.volumes = m_volumes,
+            .slots = int(m_layout.probes),
+            .irradianceTexels = m_desc.irradianceTexels,
+            .visibilityTexels = m_desc.visibilityTexels,
+            .selfShadowBias = m_settings.selfShadowBias,
+            .guard = m_settings.guard,
+            .rules = m_desc.rules,
+            .irradiance = m_storage.irradiance.data(),
+            .visibility = m_storage.visibility.data(),
+            .backfaceShare = m_storage.backfaceShare.data(),
+            .irradianceTaps = &m_irradianceTaps,
+            .visibilityTaps = &m_visibilityTaps};
 }
 
 std::vector<FieldQuery> RoomField::screenPoints(int width, int height) const {

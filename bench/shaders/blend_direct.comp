@@ -66,7 +66,7 @@ void blendVisibility(int probe, ivec2 at) {
     for (int ray = 0; ray < push.rays; ++ray) {
         const float weight = visibilityWeight(n, Vec3s(directions).at[ray], visibilityExponent);
         const float distance = safeDistance(RayData(push.rayData).at[probe * push.rays + ray].distance);
-        const float d = visibilityDistance(distance, probegiVolume.maxDistance);
+        const float d = visibilityDistance(distance, probegiField.volumes[0].maxDistance);
         sum += weight * vec2(d, d * d);
         weights += weight;
     }

@@ -7,16 +7,17 @@
 #include "field_query.glsl"
 
 vec3 queryIrradiance(FieldQuery q) {
-    const ivec3 counts = probegiVolume.counts;
-    const vec3 position = clampToGrid(q.position, probegiVolume.origin, probegiVolume.spacing, counts);
-    const vec3 local = gridCoordinates(position, probegiVolume.origin, probegiVolume.inverseSpacing);
-    const vec3 base = cageBase(local, counts);
+    const Access access = probegiAccess();
+    const Volume v = probegiVolumeAt(0);
+    const vec3 position = clampToVolume(v, q.position);
+    const vec3 local = gridCoordinates(v, position);
+    const vec3 base = cageBase(v, local);
     const vec3 alpha = cageAlpha(local, base);
-    const vec2 texel = octTexelPosition(octEncode(q.normal), probegiVolume.irradianceTexels);
+    const vec2 texel = irradiancePoint(access, q.normal);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 8; ++i) {
         const ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
-        const vec3 stored = probegiStored(ivec3(base) + corner, texel);
+        const vec3 stored = storedIrradiance(access, probeSlot(v, ivec3(base) + corner), texel);
         const vec3 share = mix(1.0 - alpha, alpha, vec3(corner));
         sum += share.x * share.y * share.z *
                vec3(decodeToBlendSpace(stored.x), decodeToBlendSpace(stored.y), decodeToBlendSpace(stored.z));

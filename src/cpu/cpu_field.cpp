@@ -47,9 +47,13 @@ CpuField::CpuField(const Context& context, const FieldDesc& desc)
       m_visibilityTaps(makeTapTable(desc.visibilityTexels)) {}
 
 FieldView CpuField::view(const FieldSettings& settings) const noexcept {
-    return {.desc = &m_desc,
-            .settings = &settings,
-            .volumes = m_volumes,
+    return {.volumes = m_volumes,
+            .slots = int(m_layout.probes),
+            .irradianceTexels = m_desc.irradianceTexels,
+            .visibilityTexels = m_desc.visibilityTexels,
+            .selfShadowBias = settings.selfShadowBias,
+            .guard = settings.guard,
+            .rules = m_desc.rules,
             .irradiance = m_storage.irradiance.data(),
             .visibility = m_storage.visibility.data(),
             .backfaceShare = m_storage.backfaceShare.data(),

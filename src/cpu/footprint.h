@@ -24,7 +24,7 @@ inline Footprint footprintOf(const TapTable& table, int size, glm::vec3 directio
     return {{taps[0], taps[1], taps[2], taps[3]}, {(1 - f.x) * (1 - f.y), f.x * (1 - f.y), (1 - f.x) * f.y, f.x * f.y}};
 }
 
-/// The four texels around an axis of the grid: the axes lie on corners of texels, since maps have an even size.
+/// The four texels around an axis of the world: the axes lie on corners of texels, since maps have an even size.
 using AxisTexels = std::array<std::uint16_t, 4>;
 
 /// `axis` 0 to 2, up or down it.
@@ -35,10 +35,10 @@ inline const AxisTexels& axisTexels(const TapTable& table, int size, int axis, b
     return table[std::size_t(y * (size + 1) + x)];
 }
 
-/// Moments of distance / maxDistance that one probe stores at a footprint of the visibility maps.
-inline glm::vec2 momentsAt(const FieldView& view, int probe, const Footprint& f) {
-    const std::size_t texels = std::size_t(view.desc->visibilityTexels) * std::size_t(view.desc->visibilityTexels);
-    const std::uint32_t* map = view.visibility + std::size_t(probe) * texels;
+/// Moments of distance / maxDistance that the probe of a slot stores at a footprint of the visibility maps.
+inline glm::vec2 momentsAt(const FieldView& view, int slot, const Footprint& f) {
+    const std::size_t texels = std::size_t(view.visibilityTexels) * std::size_t(view.visibilityTexels);
+    const std::uint32_t* map = view.visibility + std::size_t(slot) * texels;
     glm::vec2 moments(0.0f);
     for (std::size_t tap = 0; tap < 4; ++tap) moments += f.weight[tap] * kernels::unpackMoments(map[f.offset[tap]]);
     return moments;

@@ -11,9 +11,10 @@
 
 #include <hwy/highway.h>
 
-#include "kernels/lookup/surface_gradient.h"
+#include <cstring>
+
+#include "kernels/lookup/cage_weights.h"
 #include "kernels/probe/octahedral.h"
-#include "kernels/volume/probe_cage.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace probegi::kernels::HWY_NAMESPACE {
@@ -28,11 +29,13 @@ inline constexpr std::size_t kLanes = HWY_LANES(float);
 using RealVector = hn::Vec<decltype(kReals)>;
 using IntVector = hn::Vec<decltype(kInts)>;
 
-struct Mask {
+struct Mask {  // kernels' Bool
     hn::Mask<decltype(kReals)> lanes;
 
     HWY_INLINE friend Mask operator&&(const Mask& a, const Mask& b) { return {hn::And(a.lanes, b.lanes)}; }
 };
+
+using Bool = Mask;
 
 struct Real {
     RealVector lanes;
@@ -64,6 +67,9 @@ struct Int {
     HWY_INLINE friend Mask operator==(const Int& a, const Int& b) {
         return {hn::RebindMask(kReals, hn::Eq(a.lanes, b.lanes))};
     }
+    HWY_INLINE friend Mask operator<(const Int& a, const Int& b) {
+        return {hn::RebindMask(kReals, hn::Lt(a.lanes, b.lanes))};
+    }
 };
 
 struct Real2 {
@@ -75,6 +81,7 @@ struct Real2 {
 struct Real3 {
     Real x, y, z;
 
+    Real3() = default;
     HWY_INLINE Real3(const Real& x_, const Real& y_, const Real& z_) : x(x_), y(y_), z(z_) {}
     HWY_INLINE explicit Real3(vec3 v) : x(v.x), y(v.y), z(v.z) {}
 
@@ -83,6 +90,7 @@ struct Real3 {
     HWY_INLINE friend Real3 operator-(const Real3& a, vec3 b) { return a - Real3(b); }
     HWY_INLINE friend Real3 operator*(const Real3& a, vec3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
     HWY_INLINE friend Real3 operator*(const Real3& a, float b) { return {a.x * b, a.y * b, a.z * b}; }
+    HWY_INLINE friend Real3 operator/(const Real3& a, const Real& b) { return {a.x / b, a.y / b, a.z / b}; }
 };
 
 HWY_INLINE Real select(const Mask& condition, const Real& ifTrue, const Real& ifFalse) {
@@ -112,6 +120,12 @@ HWY_INLINE Real max(const Real& a, const Real& b) {
 }
 HWY_INLINE Real min(const Real& a, const Real& b) {
     return Real(hn::Min(a.lanes, b.lanes));
+}
+HWY_INLINE Real dot(const Real3& a, const Real3& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+HWY_INLINE Real length(const Real3& v) {
+    return sqrt(dot(v, v));
 }
 HWY_INLINE Real3 floor(const Real3& v) {
     return {floor(v.x), floor(v.y), floor(v.z)};
@@ -146,6 +160,17 @@ HWY_INLINE void store(const Real& x, float* to) {
 HWY_INLINE void store(const Int& x, std::int32_t* to) {
     hn::StoreU(x.lanes, kInts, to);
 }
+/// One lane's value.
+HWY_INLINE float laneOf(const Real& x, std::size_t lane) {
+    float value;
+    std::memcpy(&value, reinterpret_cast<const char*>(&x) + lane * sizeof(value), sizeof(value));
+    return value;
+}
+HWY_INLINE std::int32_t laneOf(const Int& x, std::size_t lane) {
+    std::int32_t value;
+    std::memcpy(&value, reinterpret_cast<const char*>(&x) + lane * sizeof(value), sizeof(value));
+    return value;
+}
 /// The values at base[index] of each lane.
 HWY_INLINE Real gather(const float* base, const Int& index) {
     return Real(hn::GatherIndex(kReals, base, index.lanes));
@@ -171,14 +196,20 @@ using kernels::select;
 #define KERNELS_BEGIN namespace probegi::kernels::HWY_NAMESPACE {
 #define KERNELS_END }
 #define KERNEL_FN HWY_INLINE
+#undef PROBEGI_KERNELS_ACCESS_H
+#undef PROBEGI_KERNELS_CAGE_H
+#undef PROBEGI_KERNELS_CAGE_WEIGHTS_H
+#undef PROBEGI_KERNELS_GUARDS_H
+#undef PROBEGI_KERNELS_LIST_H
 #undef PROBEGI_KERNELS_OCTAHEDRAL_H
 #undef PROBEGI_KERNELS_PROBE_CAGE_H
 #undef PROBEGI_KERNELS_PROBE_QUERY_H
 #undef PROBEGI_KERNELS_SURFACE_GRADIENT_H
-#include "kernels/lookup/probe_query.h"
-#include "kernels/lookup/surface_gradient.h"
+#undef PROBEGI_KERNELS_VOLUME_FRAME_H
+#define KERNELS_IN_LANES  // for the headers of kernels/guards, whose names only list.h knows
+#include "kernels/lookup/cage_weights.h"
 #include "kernels/probe/octahedral.h"
-#include "kernels/volume/probe_cage.h"
+#undef KERNELS_IN_LANES
 #undef KERNELS_BEGIN
 #undef KERNELS_END
 #undef KERNEL_FN

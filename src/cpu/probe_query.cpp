@@ -2,78 +2,64 @@
 
 #include <algorithm>
 #include <array>
-#include <glm/common.hpp>
-#include <glm/exponential.hpp>
-#include <glm/geometric.hpp>
 
-#include "cpu/footprint.h"
+#include "cpu/field_access.h"
 #include "cpu/query_lanes.h"
-#include "kernels/lookup/probe_neighbours.h"
-#include "kernels/probe/irradiance_decoding.h"
+#include "kernels/lookup/irradiance.h"
 #include "kernels/probe/octahedral_texel.h"
-#include "kernels/probe/probe_texel.h"
-#include "kernels/volume/probe_cage.h"
+#include "kernels/volume/volume_choice.h"
 
 namespace probegi {
 
 namespace {
 
-// E that one probe stores at a footprint of the irradiance maps.
-glm::vec3 irradianceAt(const FieldView& view, int probe, const Footprint& f) {
-    const std::size_t texels = std::size_t(view.desc->irradianceTexels) * std::size_t(view.desc->irradianceTexels);
-    const std::uint16_t* map = view.irradiance + 3 * texels * std::size_t(probe);
-    glm::vec3 stored(0.0f);
-    for (std::size_t tap = 0; tap < 4; ++tap) {
-        const std::uint16_t* texel = map + 3 * f.offset[tap];
-        stored += f.weight[tap] * glm::vec3(kernels::unpackHalf(texel[0]), kernels::unpackHalf(texel[1]),
-                                            kernels::unpackHalf(texel[2]));
+constexpr std::size_t kBatch = 256;
+
+// E at up to kBatch queries of one volume.
+void answerIn(const FieldView& view, const kernels::Volume& volume, std::span<const FieldQuery> queries,
+              std::span<glm::vec3> out) {
+    const FieldAccess access(view);
+    std::array<CageAnswer, kBatch> answers;
+    answerFromCages(view, volume, queries, answers.data());
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        const CageAnswer& answer = answers[i];
+        if (kernels::enoughWeight(answer.weightSum, access.rules)) {
+            out[i] = answer.irradiance;
+            continue;
+        }
+        countFallback(access);
+        const FieldQuery& q = queries[i];
+        const kernels::Cage cage =
+            kernels::cageAround(volume, q.position, q.normal, q.toViewer, access.selfShadowBias, access.rules);
+        out[i] = kernels::completedByNeighbours(
+            answer.root, answer.weightSum,
+            kernels::neighboursIrradiance(access, volume, cage, irradiancePoint(access, q.normal)));
     }
-    return glm::vec3(kernels::decodeIrradiance(stored.x), kernels::decodeIrradiance(stored.y),
-                     kernels::decodeIrradiance(stored.z)) *
-           kernels::kPi;
 }
 
-Footprint irradianceFootprint(const FieldView& view, glm::vec3 normal) {
-    return footprintOf(*view.irradianceTaps, view.desc->irradianceTexels, normal);
+std::size_t volumeAt(const FieldView& view, glm::vec3 point) {
+    kernels::VolumeChoice choice = kernels::noVolume();
+    for (std::size_t i = 0; i < view.volumes.size(); ++i)
+        choice = kernels::chooseVolume(choice, view.volumes[i], int(i), point);
+    return std::size_t(choice.volume);
 }
 
-// How far one probe sees the point, as the field's guard has it.
-float neighbourVisibility(const FieldView& view, int probe, glm::vec3 fromProbe) {
-    if (view.settings->guard == LeakGuard::none) return 1.0f;
-    const float distance = glm::length(fromProbe) + kernels::kNoLength;
-    return kernels::neighbourVisibility(probeMoments(view, probe, fromProbe / distance),
-                                        distance * view.volumes[0].inverseMaxDistance);
-}
-
-// The answer where the probes of the cage do not know (kernels/lookup/probe_neighbours.h). Black only where all
-// neighbours stand in walls.
-glm::vec3 queryNeighbours(const FieldView& view, FieldQuery query) {
-    const kernels::Volume& grid = view.volumes[0];
-    const float biasScale = view.settings->selfShadowBias;
-    constexpr int rules = kernels::kRulesMeasured;
-    query.toViewer = kernels::viewerOf(query.toViewer, query.normal);
-    query.position = kernels::clampToGrid(query.position, grid.origin, grid.spacing, grid.counts);
-    const glm::vec3 bias = kernels::visibilityBias(query.normal, query.toViewer, grid.minSpacing, biasScale, rules);
-    const glm::vec3 local = kernels::gridCoordinates(
-        query.position + kernels::cageBias(query.normal, query.toViewer, grid.minSpacing, biasScale, rules),
-        grid.origin, grid.inverseSpacing);
-    const glm::ivec3 base(kernels::cageBase(local, grid.counts));
-    const Footprint footprint = irradianceFootprint(view, query.normal);
-    glm::vec3 sum(0.0f);
-    float weightSum = 0;
-    for (int i = 0; i < kernels::kNeighbours; ++i) {
-        const glm::ivec3 cell = kernels::neighbourCell(base, i);
-        if (!kernels::isInGrid(cell, grid.counts)) continue;
-        const int probe = kernels::probeNumber(cell, grid.counts);
-        const float outside = kernels::outsideWeight(view.backfaceShare[probe], rules);
-        if (outside <= 0.0f) continue;
-        const glm::vec3 toProbe = kernels::probePlace(cell, grid.origin, grid.spacing) - query.position;
-        const float visible = neighbourVisibility(view, probe, bias - toProbe);
-        const float weight = kernels::neighbourWeight(outside, toProbe, query.normal, visible, grid.minSpacing);
-        sum += weight * irradianceAt(view, probe, footprint);
-        weightSum += weight;
+// E at up to kBatch queries of several volumes: sorted by volume, and in their order within each.
+void answerInSeveral(const FieldView& view, std::span<const FieldQuery> queries, std::span<glm::vec3> out) {
+    std::array<std::size_t, kBatch> keys;
+    for (std::size_t i = 0; i < queries.size(); ++i) keys[i] = volumeAt(view, queries[i].position) * kBatch + i;
+    std::sort(keys.begin(), keys.begin() + std::ptrdiff_t(queries.size()));
+    std::array<FieldQuery, kBatch> sorted;
+    std::array<glm::vec3, kBatch> answers;
+    for (std::size_t i = 0; i < queries.size(); ++i) sorted[i] = queries[keys[i] % kBatch];
+    for (std::size_t begin = 0, end; begin < queries.size(); begin = end) {
+        const std::size_t volume = keys[begin] / kBatch;
+        end = begin;
+        while (end < queries.size() && keys[end] / kBatch == volume) ++end;
+        answerIn(view, view.volumes[volume], std::span(sorted).subspan(begin, end - begin),
+                 std::span(answers).subspan(begin, end - begin));
     }
-    return weightSum > 0 ? sum / weightSum : glm::vec3(0.0f);
+    for (std::size_t i = 0; i < queries.size(); ++i) out[keys[i] % kBatch] = answers[i];
 }
 
 }  // namespace
@@ -92,27 +78,25 @@ TapTable makeTapTable(int size) {
 }
 
 void queryIrradiance(const FieldView& view, std::span<const FieldQuery> queries, std::span<glm::vec3> out) {
-    std::array<CageAnswer, 256> answers;
-    for (std::size_t begin = 0; begin < queries.size(); begin += answers.size()) {
-        const std::size_t count = std::min(answers.size(), queries.size() - begin);
-        answerFromCages(view, queries.subspan(begin, count), answers.data());
-        for (std::size_t i = 0; i < count; ++i) {
-            const CageAnswer& answer = answers[i];
-            const bool known = view.desc->rules == FieldRules::paper || answer.weightSum >= kernels::kDoubtful;
-            if (!known && view.fallbacks) view.fallbacks->fetch_add(1, std::memory_order_relaxed);
-            out[begin + i] = known ? answer.irradiance
-                                   : kernels::completedByNeighbours(answer.root, answer.weightSum,
-                                                                    queryNeighbours(view, queries[begin + i]));
-        }
+    for (std::size_t begin = 0; begin < queries.size(); begin += kBatch) {
+        const std::size_t count = std::min(kBatch, queries.size() - begin);
+        if (view.volumes.size() == 1)
+            answerIn(view, view.volumes[0], queries.subspan(begin, count), out.subspan(begin, count));
+        else
+            answerInSeveral(view, queries.subspan(begin, count), out.subspan(begin, count));
     }
 }
 
-glm::vec3 probeIrradiance(const FieldView& view, int probe, glm::vec3 normal) {
-    return irradianceAt(view, probe, irradianceFootprint(view, normal));
+glm::vec3 probeIrradiance(const FieldView& view, int slot, glm::vec3 normal) {
+    const FieldAccess access(view);
+    const glm::vec3 stored = storedIrradiance(access, slot, irradiancePoint(access, normal));
+    return glm::vec3(kernels::decodeIrradiance(stored.x), kernels::decodeIrradiance(stored.y),
+                     kernels::decodeIrradiance(stored.z)) *
+           kernels::kPi;
 }
 
-glm::vec2 probeMoments(const FieldView& view, int probe, glm::vec3 direction) {
-    return momentsAt(view, probe, footprintOf(*view.visibilityTaps, view.desc->visibilityTexels, direction));
+glm::vec2 probeMoments(const FieldView& view, int slot, glm::vec3 direction) {
+    return momentsAt(view, slot, footprintOf(*view.visibilityTaps, view.visibilityTexels, direction));
 }
 
 }  // namespace probegi

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cpu/field_storage.h"
+#include "kernels/volume/volume.h"
 
 namespace probegi {
 
@@ -18,24 +19,29 @@ TapTable makeTapTable(int size);
 
 /// What a query reads: a view of a field on which nothing is checked.
 struct FieldView {
-    const FieldDesc* desc = nullptr;
-    const FieldSettings* settings = nullptr;
-    std::span<const kernels::Volume> volumes{};
+    std::span<const kernels::Volume> volumes;
+    int slots = 0;  ///< of all volumes
+    int irradianceTexels = 8;
+    int visibilityTexels = 16;
+    float selfShadowBias = 0.3f;
+    LeakGuard guard = LeakGuard::moments;
+    FieldRules rules = FieldRules::measured;
     const std::uint16_t* irradiance = nullptr;
     const std::uint32_t* visibility = nullptr;
     const float* backfaceShare = nullptr;
-    std::atomic<std::uint64_t>* fallbacks = nullptr;  ///< counts the queries that no probe of their cage could answer
+    std::atomic<std::uint64_t>* fallbacks = nullptr;  ///< counts the queries whose cage had too little weight
     const TapTable* irradianceTaps = nullptr;
     const TapTable* visibilityTaps = nullptr;
 };
 
-/// E in W m^-2 at each query (section 2.2), on the calling thread.
+/// E in W m^-2 at each query (section 2.2), on the calling thread. Of several volumes the first that holds a point
+/// answers, else the nearest.
 void queryIrradiance(const FieldView& view, std::span<const FieldQuery> queries, std::span<glm::vec3> out);
 
-/// E that one probe stores for a normal, bilinear in its map.
-glm::vec3 probeIrradiance(const FieldView& view, int probe, glm::vec3 normal);
+/// E that the probe of a slot stores for a normal, bilinear in its map.
+glm::vec3 probeIrradiance(const FieldView& view, int slot, glm::vec3 normal);
 
-/// Mean and mean square of distance / maxDistance that one probe stores in a direction.
-glm::vec2 probeMoments(const FieldView& view, int probe, glm::vec3 direction);
+/// Mean and mean square of distance / maxDistance that the probe of a slot stores in a direction of the world.
+glm::vec2 probeMoments(const FieldView& view, int slot, glm::vec3 direction);
 
 }  // namespace probegi

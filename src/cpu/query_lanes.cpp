@@ -11,12 +11,12 @@
 #include <array>
 
 #include "cpu/query_lanes.h"
-#include "kernels/lookup/probe_neighbours.h"
+#include "field/guard_number.h"
 #include "kernels/probe/storage.h"
 
 #include "cpu/footprint-inl.h"
+#include "cpu/lane_access-inl.h"
 #include "cpu/lanes-inl.h"
-#include "cpu/leak_guards-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace probegi::HWY_NAMESPACE {
@@ -24,9 +24,9 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 namespace lanes = kernels::HWY_NAMESPACE;
+using lanes::CageWeights;
 using lanes::Int;
 using lanes::kLanes;
-using lanes::Mask;
 using lanes::Real;
 using lanes::Real3;
 
@@ -38,12 +38,7 @@ struct alignas(64) Block {
     std::array<Reals, 3> position, normal, toViewer;
     std::array<Ints, 4> offset;       // the normal's footprint: halves from the beginning of a probe's map
     std::array<Reals, 4> tapWeight;   // and its weights, times kHalfRebase
-    std::array<Ints, 8> probe;        // the cage's
-    std::array<Reals, 8> weight;      // and their weights
-    std::array<Ints, 4> front;        // corners of the cage in front of the surface
-    std::array<Reals, 4> pair;        // weight of each with the probe beyond it
-    Ints step;                        // from a probe in front to the one beyond, in probe numbers
-    std::array<Reals, 3> root, rise;  // weighted sums, for kernels/lookup/surface_gradient.h
+    std::array<Reals, 3> root, rise;  // weighted sums
 };
 
 // One texel's three channels (and whatever follows).
@@ -91,7 +86,7 @@ HWY_INLINE Real3 load(const std::array<Reals, 3>& v) {
 }
 
 HWY_INLINE void findFootprints(const FieldView& view, const Real3& normal, Block& block) {
-    const LaneFootprint f = footprintOf(*view.irradianceTaps, view.desc->irradianceTexels, normal);
+    const LaneFootprint f = footprintOf(*view.irradianceTaps, view.irradianceTexels, normal);
     for (std::size_t tap = 0; tap < 4; ++tap) lanes::store(f.tap[tap] * Int(3), block.offset[tap].data());
     const Real y1 = f.fy * kernels::kHalfRebase, y0 = Real(kernels::kHalfRebase) - y1;
     lanes::store(y0 - f.fx * y0, block.tapWeight[0].data());
@@ -100,115 +95,9 @@ HWY_INLINE void findFootprints(const FieldView& view, const Real3& normal, Block
     lanes::store(f.fx * y1, block.tapWeight[3].data());
 }
 
-// What the way back to the surface needs of a block's cages.
-struct Cages {
-    Int first;          // lowest probe
-    Real3 base, alpha;  // its place, and the points' in the cage
-    Real weightSum;     // of the eight probes
-    Real ahead;         // weighted mean of their distance to the surface's plane, metres
-};
-
-// Steps 1 to 3 of section 2.2 for the eight probes around each point.
-template <int rules, class Guard>
-HWY_INLINE Cages weighProbes(const FieldView& view, const Guard& guard, const Real3& normal, Block& block) {
-    const kernels::Volume& grid = view.volumes[0];
-    const float biasScale = view.settings->selfShadowBias;
-    const Real3 toViewer = lanes::viewerOf(load(block.toViewer), normal);
-    const Real3 position = lanes::clampToGrid(load(block.position), grid.origin, grid.spacing, grid.counts);
-    const Real3 bias = lanes::visibilityBias(normal, toViewer, grid.minSpacing, biasScale, rules);
-    // The cage and the trilinear weights belong to a point a little off the surface: on a wall that runs through a
-    // layer of probes the answer would otherwise lean on that layer alone.
-    const Real3 local =
-        lanes::gridCoordinates(position + lanes::cageBias(normal, toViewer, grid.minSpacing, biasScale, rules),
-                               grid.origin, grid.inverseSpacing);
-    const Real3 base = lanes::cageBase(local, grid.counts);
-    const Real3 alpha = lanes::cageAlpha(local, base);
-    const Real3 toBase = base * grid.spacing - (position - grid.origin);
-    const std::int32_t strideY = grid.counts.x, strideZ = grid.counts.x * grid.counts.y;
-    const Int first = lanes::toInt(base.x) + lanes::toInt(base.y) * Int(strideY) + lanes::toInt(base.z) * Int(strideZ);
-
-    Real weightSum = 0.0f, ahead = 0.0f;
-    for (int corner = 0; corner < 8; ++corner) {
-        const int x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
-        const Real3 d = toBase + Real3(glm::vec3(x, y, z) * grid.spacing);
-        const Real length = lanes::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
-        const Real product = d.x * normal.x + d.y * normal.y + d.z * normal.z;
-        const Real facing = lanes::backfaceWeight(lanes::cosineToProbe(product, length, grid.minSpacing), rules);
-        const Int probe = first + Int(x + y * strideY + z * strideZ);
-        const Real trilinear = lanes::trilinearFactor(float(x), alpha.x) * lanes::trilinearFactor(float(y), alpha.y) *
-                               lanes::trilinearFactor(float(z), alpha.z);
-        const Real weight = lanes::crushWeight(facing * guard.seen(probe, bias - d)) * trilinear *
-                            lanes::outsideWeight(lanes::gather(view.backfaceShare, probe), rules);
-        weightSum = weightSum + weight;
-        ahead = ahead + weight * product;
-        lanes::store(probe, block.probe[std::size_t(corner)].data());
-        lanes::store(weight, block.weight[std::size_t(corner)].data());
-    }
-    return {first, base, alpha, weightSum, ahead / weightSum};
-}
-
-// How light changes along the normal (kernels/lookup/surface_gradient.h).
-struct Gradients {
-    Real pairWeight;  // sum over the pairs
-    Real cells;       // by which the light was read in front of the surface
-    Real trust;       // 0 where nothing is known of the layer beyond
-};
-
-HWY_INLINE Real component(const Int& axis, const Real3& v) {
-    return lanes::select(axis == Int(0), v.x, lanes::select(axis == Int(1), v.y, v.z));
-}
-
-template <class Guard>
-HWY_INLINE Gradients weighPairs(const FieldView& view, const Guard& guard, const Real3& normal, const Cages& cages,
-                                Block& block) {
-    const kernels::Volume& grid = view.volumes[0];
-    const Int axis = lanes::dominantAxis(normal);
-    const Mask alongX = axis == Int(0), alongZ = axis == Int(2);
-    const Real onAxis = component(axis, normal);
-    const Mask up = onAxis > 0.0f;
-    const Real beyond = component(axis, cages.base) + lanes::select(up, Real(2.0f), Real(-1.0f));
-    const Mask known = beyond >= 0.0f && beyond < component(axis, Real3(glm::vec3(grid.counts))) && cages.ahead > 0.0f;
-    const Real trust = lanes::select(known, lanes::axisTrust(normal), Real(0.0f));
-    lanes::store(Int(0), block.step.data());
-    if (!lanes::anyOf(trust > 0.0f)) return {0.0f, 0.0f, 0.0f};
-
-    const std::int32_t strideY = grid.counts.x, strideZ = grid.counts.x * grid.counts.y;
-    const Int stride = lanes::select(alongX, Int(1), lanes::select(alongZ, Int(strideZ), Int(strideY)));
-    const Int bit = lanes::select(alongX, Int(1), lanes::select(alongZ, Int(4), Int(2)));
-    // The two other axes, in bits of a corner and in probe numbers.
-    const Int uBit = lanes::select(alongX, Int(2), Int(1)), vBit = lanes::select(alongZ, Int(2), Int(4));
-    const Int uStride = lanes::select(alongX, Int(strideY), Int(1));
-    const Int vStride = lanes::select(alongZ, Int(strideY), Int(strideZ));
-    const Int step = lanes::select(known, lanes::select(up, stride, Int(0) - stride), Int(0));
-    const Int frontCorner = lanes::select(up, bit, Int(0));
-    const Int frontProbe = cages.first + lanes::select(up, stride, Int(0));
-    const auto along = guard.along(axis + axis + lanes::select(up, Int(1), Int(0)));
-    const Real spacing = component(axis, Real3(grid.spacing));
-    // The pair's weight is that of the probe in front, without the share that the point's depth gives to its layer.
-    const Real depth = component(axis, cages.alpha);
-    const Real alongAxis = Real(1.0f) / lanes::trilinearFactor(1.0f, lanes::select(up, depth, Real(1.0f) - depth));
-    const Int lane = Int(hn::Iota(lanes::kInts, 0));
-    lanes::store(step, block.step.data());
-
-    Real pairWeight = 0.0f;
-    for (std::size_t i = 0; i < 4; ++i) {
-        Int corner = frontCorner, probe = frontProbe;
-        if (i & 1) corner = corner + uBit, probe = probe + uStride;
-        if (i & 2) corner = corner + vBit, probe = probe + vStride;
-        const Real weight = lanes::gather(block.weight[0].data(), corner * Int(kLanes) + lane);
-        const Real outside =
-            lanes::outsideWeight(lanes::gather(view.backfaceShare, probe + step), kernels::kRulesMeasured);
-        const Real pair = weight * alongAxis * outside * guard.between(probe, along, spacing);
-        pairWeight = pairWeight + pair;
-        lanes::store(corner, block.front[i].data());
-        lanes::store(pair, block.pair[i].data());
-    }
-    return {pairWeight, lanes::cellsAhead(cages.ahead, spacing, onAxis), trust};
-}
-
 // Weighted sums of what the probes of one point's cage store, and of what those beyond have more.
-HWY_INLINE void gatherLight(const FieldView& view, std::size_t i, bool beyond, Block& block) {
-    const std::size_t halvesPerProbe = 3 * std::size_t(view.desc->irradianceTexels * view.desc->irradianceTexels);
+HWY_INLINE void gatherLight(const FieldView& view, const CageWeights& w, std::size_t i, bool beyond, Block& block) {
+    const std::size_t halvesPerProbe = 3 * std::size_t(view.irradianceTexels * view.irradianceTexels);
     Footprint4 f;
     for (std::size_t tap = 0; tap < 4; ++tap) {
         f.offset[tap] = block.offset[tap][i];
@@ -217,46 +106,44 @@ HWY_INLINE void gatherLight(const FieldView& view, std::size_t i, bool beyond, B
     std::array<Texel, 8> roots;
     Texel root = hn::Zero(kTexel);
     for (std::size_t corner = 0; corner < 8; ++corner) {
-        roots[corner] = storedRoot(view.irradiance + std::size_t(block.probe[corner][i]) * halvesPerProbe, f);
-        root = hn::MulAdd(hn::Set(kTexel, block.weight[corner][i]), roots[corner], root);
+        roots[corner] = storedRoot(view.irradiance + std::size_t(lanes::laneOf(w.slot[corner], i)) * halvesPerProbe, f);
+        root = hn::MulAdd(hn::Set(kTexel, lanes::laneOf(w.weight[corner], i)), roots[corner], root);
     }
     alignas(16) std::array<float, 4> sum;
     hn::Store(root, kTexel, sum.data());
     for (std::size_t c = 0; c < 3; ++c) block.root[c][i] = sum[c];
     if (!beyond) return;
 
+    const std::int32_t step = lanes::laneOf(w.step, i);
     Texel rise = hn::Zero(kTexel);
     for (std::size_t k = 0; k < 4; ++k) {
-        const std::size_t corner = std::size_t(block.front[k][i]);
-        const std::size_t probe = std::size_t(block.probe[corner][i] + block.step[i]);
-        const Texel more = hn::Sub(storedRoot(view.irradiance + probe * halvesPerProbe, f), roots[corner]);
-        rise = hn::MulAdd(hn::Set(kTexel, block.pair[k][i]), more, rise);
+        const std::size_t corner = std::size_t(lanes::laneOf(w.front[k], i));
+        const std::size_t beyondIt = std::size_t(lanes::laneOf(w.slot[corner], i) + step);
+        const Texel more = hn::Sub(storedRoot(view.irradiance + beyondIt * halvesPerProbe, f), roots[corner]);
+        rise = hn::MulAdd(hn::Set(kTexel, lanes::laneOf(w.pair[k], i)), more, rise);
     }
     hn::Store(rise, kTexel, sum.data());
     for (std::size_t c = 0; c < 3; ++c) block.rise[c][i] = sum[c];
 }
 
-template <int rules, class Guard>
-HWY_INLINE void answer(const FieldView& view, const Guard& guard, std::span<const FieldQuery> queries, Block& block,
-                       CageAnswer* out) {
+template <class Access>
+HWY_INLINE void answer(const FieldView& view, const Access& access, const kernels::Volume& volume,
+                       std::span<const FieldQuery> queries, Block& block, CageAnswer* out) {
     transpose(queries, block);
     const Real3 normal = load(block.normal);
     findFootprints(view, normal, block);
-    const Cages cages = weighProbes<rules>(view, guard, normal, block);
-    Gradients gradients{0.0f, 0.0f, 0.0f};
-    if constexpr (rules == kernels::kRulesMeasured) gradients = weighPairs(view, guard, normal, cages, block);
+    const lanes::Cage cage = lanes::cageAround(volume, load(block.position), normal, load(block.toViewer),
+                                               access.selfShadowBias, access.rules);
+    const CageWeights w = lanes::weighCage(access, volume, cage);
     alignas(64) Reals weightSum, known;
-    lanes::store(cages.weightSum, weightSum.data());
-    lanes::store(gradients.trust * gradients.pairWeight, known.data());
-    for (std::size_t i = 0; i < queries.size(); ++i) gatherLight(view, i, known[i] > 0.0f, block);
+    lanes::store(w.weightSum, weightSum.data());
+    lanes::store(w.trust * w.pairSum, known.data());
+    for (std::size_t i = 0; i < queries.size(); ++i) gatherLight(view, w, i, known[i] > 0.0f, block);
 
-    const Real inverse = Real(1.0f) / cages.weightSum;
+    const Real inverse = Real(1.0f) / w.weightSum;
     for (std::size_t c = 0; c < 3; ++c) {
-        Real root = lanes::load(block.root[c].data()) * inverse;
-        if constexpr (rules == kernels::kRulesMeasured)
-            root = lanes::rootAtSurface(root, lanes::load(block.rise[c].data()), gradients.pairWeight, gradients.cells,
-                                        gradients.trust);
-        lanes::store(root * root * kernels::kPi, block.rise[c].data());
+        const Real root = lanes::load(block.root[c].data()), rise = lanes::load(block.rise[c].data());
+        lanes::store(lanes::irradianceAtSurface(w, root, rise, inverse, access.rules), block.rise[c].data());
     }
     for (std::size_t i = 0; i < queries.size(); ++i) {
         out[i].irradiance = {block.rise[0][i], block.rise[1][i], block.rise[2][i]};
@@ -265,30 +152,41 @@ HWY_INLINE void answer(const FieldView& view, const Guard& guard, std::span<cons
     }
 }
 
-template <int rules, class Guard>
-void answerAll(const FieldView& view, std::span<const FieldQuery> queries, CageAnswer* out) {
-    const Guard guard(view);
+template <bool turned, class Access>
+void answerAll(const FieldView& view, kernels::Volume volume, std::span<const FieldQuery> queries, CageAnswer* out) {
+    volume.turned = turned ? 1 : 0;
+    const Access access(view);
     Block block{};
     for (std::size_t begin = 0; begin < queries.size(); begin += kLanes)
-        answer<rules>(view, guard, queries.subspan(begin, std::min(kLanes, queries.size() - begin)), block,
-                      out + begin);
+        answer(view, access, volume, queries.subspan(begin, std::min(kLanes, queries.size() - begin)), block,
+               out + begin);
+}
+
+template <int rules, bool turned>
+void answerBy(const FieldView& view, const kernels::Volume& volume, std::span<const FieldQuery> queries,
+              CageAnswer* out) {
+    switch (guardNumber(view.guard)) {
+#define GUARD(number, seen, between, farther) \
+    case number:                              \
+        return answerAll<turned, LaneAccess<rules, number>>(view, volume, queries, out);
+        PROBEGI_GUARDS(GUARD)
+#undef GUARD
+    }
 }
 
 template <int rules>
-void answerBy(const FieldView& view, std::span<const FieldQuery> queries, CageAnswer* out) {
-    switch (view.settings->guard) {
-        case LeakGuard::none:
-            return answerAll<rules, NoGuard>(view, queries, out);
-        case LeakGuard::moments:
-            return answerAll<rules, MomentsGuard<rules>>(view, queries, out);
-    }
+void answerTurned(const FieldView& view, const kernels::Volume& volume, std::span<const FieldQuery> queries,
+                  CageAnswer* out) {
+    if (volume.turned != 0) return answerBy<rules, true>(view, volume, queries, out);
+    return answerBy<rules, false>(view, volume, queries, out);
 }
 
 }  // namespace
 
-void answerFromCages(const FieldView& view, std::span<const FieldQuery> queries, CageAnswer* out) {
-    if (view.desc->rules == FieldRules::paper) return answerBy<kernels::kRulesPaper>(view, queries, out);
-    return answerBy<kernels::kRulesMeasured>(view, queries, out);
+void answerFromCages(const FieldView& view, const kernels::Volume& volume, std::span<const FieldQuery> queries,
+                     CageAnswer* out) {
+    if (view.rules == FieldRules::paper) return answerTurned<kernels::kRulesPaper>(view, volume, queries, out);
+    return answerTurned<kernels::kRulesMeasured>(view, volume, queries, out);
 }
 
 std::string_view instructionSetHere() {
@@ -304,8 +202,9 @@ namespace probegi {
 HWY_EXPORT(answerFromCages);
 HWY_EXPORT(instructionSetHere);
 
-void answerFromCages(const FieldView& view, std::span<const FieldQuery> queries, CageAnswer* out) {
-    HWY_DYNAMIC_DISPATCH(answerFromCages)(view, queries, out);
+void answerFromCages(const FieldView& view, const kernels::Volume& volume, std::span<const FieldQuery> queries,
+                     CageAnswer* out) {
+    HWY_DYNAMIC_DISPATCH(answerFromCages)(view, volume, queries, out);
 }
 
 std::string_view instructionSet() noexcept {

@@ -1,6 +1,6 @@
-// Types of kernels that process several points at once. In GLSL and plain C++, Real is float, Int is int and select()
-// is the conditional operator. src/cpu/lanes-inl.h includes the same headers again in another namespace, where they are
-// SIMD vectors. So these kernels must not branch on Real.
+// The types of kernels that answer several points abreast. In GLSL and plain C++, Real is float, Int is int, Bool is
+// bool and select() is the conditional operator. src/cpu/lanes-inl.h includes the same headers a second time in another
+// namespace, where they hold as many values as the processor's vectors. So these kernels have no branches on Real.
 #ifndef PROBEGI_KERNELS_LANES_H
 #define PROBEGI_KERNELS_LANES_H
 
@@ -9,6 +9,7 @@
 #ifndef __cplusplus
 #define Real float
 #define Int int
+#define Bool bool
 #define Real2 vec2
 #define Real3 vec3
 #endif
@@ -18,6 +19,7 @@ KERNELS_BEGIN
 #ifdef __cplusplus
 using Real = float;
 using Int = int;
+using Bool = bool;
 using Real2 = vec2;
 using Real3 = vec3;
 #endif
@@ -29,7 +31,16 @@ KERNEL_FN int select(bool condition, int ifTrue, int ifFalse) {
     return condition ? ifTrue : ifFalse;
 }
 
-// Sign, but never 0 (unlike GLSL's sign(0)).
+KERNEL_FN bool anyOf(bool condition) {
+    return condition;
+}
+
+// The whole number that x is.
+KERNEL_FN int toInt(float x) {
+    return int(x);
+}
+
+// Sign that is never 0 (GLSL's sign(0) is).
 KERNEL_FN float signNotZero(float x) {
     return x < 0.0f ? -1.0f : 1.0f;
 }

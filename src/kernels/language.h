@@ -1,8 +1,8 @@
-// Makes one source valid as both GLSL 4.60 and C++20. Every kernel header includes this first and keeps to the common
-// subset: free functions, `f` on literals, no swizzles, no default arguments, no overloading on constness,
-// OUT()/INOUT() for results, no access to buffers. PRECISE before a variable's type forbids fusing the operations that
-// compute it (C++ fuses only for processors with FMA, where -ffp-contract=off forbids it). A header's code is between
-// KERNELS_BEGIN and KERNELS_END, with include guards (GLSL has no `#pragma once`).
+// What makes one text both GLSL 4.60 and C++20. Every kernel header includes this first and keeps to the common subset:
+// free functions, `f` on literals, no swizzles, no default arguments, no overloading on constness, OUT()/INOUT() for
+// results, IN() for structs that C++ passes by reference, no buffers. PRECISE before a variable's type forbids to fuse
+// what goes into it (C++ fuses only for processors with FMA, where -ffp-contract=off forbids it). A header's text
+// stands between KERNELS_BEGIN and KERNELS_END and is guarded by macros (GLSL has no `#pragma once`).
 #ifndef PROBEGI_KERNELS_LANGUAGE_H
 #define PROBEGI_KERNELS_LANGUAGE_H
 
@@ -26,8 +26,17 @@
 #define KERNEL_FN inline
 #define KERNEL_CONST inline constexpr
 #define PRECISE
+#define IN(T) const T&
 #define OUT(T) T&
 #define INOUT(T) T&
+// Before a loop of a few rounds whose numbers are indices.
+#if defined(__clang__)
+#define UNROLL _Pragma("unroll")
+#elif defined(__GNUC__)
+#define UNROLL _Pragma("GCC unroll 8")
+#else
+#define UNROLL
+#endif
 
 namespace probegi::kernels {
 
@@ -59,7 +68,7 @@ using glm::normalize;
 using glm::pow;
 using glm::reflect;
 using glm::sqrt;
-using std::abs;  // for scalars: glm's branches
+using std::abs;  // of scalars: glm's is a branch
 using std::acos;
 using std::atan;
 using std::cos;
@@ -95,8 +104,10 @@ inline int findMSB(uint x) {
 #define KERNEL_FN
 #define KERNEL_CONST const
 #define PRECISE precise
+#define IN(T) T
 #define OUT(T) out T
 #define INOUT(T) inout T
+#define UNROLL
 
 #endif
 

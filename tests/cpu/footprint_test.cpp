@@ -34,7 +34,8 @@ struct Maps {
     }
     FieldView view() const {
         FieldView v;
-        v.desc = &desc;
+        v.irradianceTexels = desc.irradianceTexels;
+        v.visibilityTexels = desc.visibilityTexels;
         v.irradiance = irradiance.data();
         v.visibility = visibility.data();
         v.irradianceTaps = &irradianceTaps;

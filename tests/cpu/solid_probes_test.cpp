@@ -28,7 +28,8 @@ struct Volume {
     }
     void find() {
         FieldView view;
-        view.desc = &desc;
+        view.slots = 60;
+        view.visibilityTexels = desc.visibilityTexels;
         view.visibility = visibility.data();
         view.visibilityTaps = &taps;
         std::vector<kernels::Volume> volumes = makeVolumes(desc);

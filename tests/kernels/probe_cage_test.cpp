@@ -7,28 +7,38 @@
 namespace probegi::kernels {
 namespace {
 
-const vec3 kOrigin(1, 2, 3), kSpacing(0.5f, 1, 2);
-const ivec3 kCounts(4, 5, 6);  // as far as (2.5, 6, 13)
+const ivec3 kCounts(4, 5, 6);
+
+// As far as (2.5, 6, 13).
+Volume someVolume() {
+    Volume v{};
+    v.origin = vec3(1, 2, 3);
+    v.spacing = vec3(0.5f, 1, 2);
+    v.inverseSpacing = 1.0f / v.spacing;
+    v.counts = kCounts;
+    return v;
+}
+const Volume kVolume = someVolume();
 
 TEST(ProbeCage, pointsOutsideMoveToTheGridsFaces) {
-    EXPECT_EQ(clampToGrid({2, 3, 4}, kOrigin, kSpacing, kCounts), vec3(2, 3, 4));
-    EXPECT_EQ(clampToGrid({-9, 99, 4}, kOrigin, kSpacing, kCounts), vec3(1, 6, 4));
-    EXPECT_EQ(clampToGrid({99, -9, 99}, kOrigin, kSpacing, kCounts), vec3(2.5f, 2, 13));
+    EXPECT_EQ(clampToVolume(kVolume, {2, 3, 4}), vec3(2, 3, 4));
+    EXPECT_EQ(clampToVolume(kVolume, {-9, 99, 4}), vec3(1, 6, 4));
+    EXPECT_EQ(clampToVolume(kVolume, {99, -9, 99}), vec3(2.5f, 2, 13));
 }
 
 TEST(ProbeCage, coordinatesCountSpacings) {
-    EXPECT_EQ(gridCoordinates({1.75f, 4, 4}, kOrigin, 1.0f / kSpacing), vec3(1.5f, 2, 0.5f));
+    EXPECT_EQ(gridCoordinates(kVolume, {1.75f, 4, 4}), vec3(1.5f, 2, 0.5f));
 }
 
 TEST(ProbeCage, theCageIsAroundThePoint) {
     const vec3 inside(1.5f, 2.25f, 0.5f);
-    EXPECT_EQ(cageBase(inside, kCounts), vec3(1, 2, 0));
+    EXPECT_EQ(cageBase(kVolume, inside), vec3(1, 2, 0));
     EXPECT_EQ(cageAlpha(inside, vec3(1, 2, 0)), vec3(0.5f, 0.25f, 0.5f));
     // On and beyond the last probes: the last cage, at its end.
-    EXPECT_EQ(cageBase({3, 4, 5}, kCounts), vec3(2, 3, 4));
+    EXPECT_EQ(cageBase(kVolume, {3, 4, 5}), vec3(2, 3, 4));
     EXPECT_EQ(cageAlpha({3, 4, 5}, {2, 3, 4}), vec3(1.0f));
     EXPECT_EQ(cageAlpha({3.5f, 4, 5}, {2, 3, 4}), vec3(1.0f));
-    EXPECT_EQ(cageBase({-0.5f, -3, 0}, kCounts), vec3(0.0f));
+    EXPECT_EQ(cageBase(kVolume, {-0.5f, -3, 0}), vec3(0.0f));
     EXPECT_EQ(cageAlpha({-0.5f, -3, 0}, vec3(0.0f)), vec3(0.0f));
 }
 
@@ -37,7 +47,7 @@ TEST(ProbeCage, numbersCountXFirst) {
     for (int z = 0; z < 6; ++z)
         for (int y = 0; y < 5; ++y)
             for (int x = 0; x < 4; ++x) EXPECT_EQ(probeNumber({x, y, z}, kCounts), number++);
-    EXPECT_EQ(probePlace({3, 4, 5}, kOrigin, kSpacing), vec3(2.5f, 6, 13));
+    EXPECT_EQ(probePlace({3, 4, 5}, kVolume.origin, kVolume.spacing), vec3(2.5f, 6, 13));
 }
 
 // Face by face: 4 below and 4 above along each axis.

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "kernels/blend/probe_blend.h"
+#include "kernels/guards/moments.h"
 #include "kernels/lookup/probe_neighbours.h"
 #include "kernels/lookup/probe_query.h"
 #include "kernels/lookup/surface_gradient.h"
@@ -121,10 +122,9 @@ TEST(ProbeNeighbours, weightsKnowFacingVisibilityAndWalls) {
 }
 
 TEST(ProbeNeighbours, beyondTheFarthestDistanceNothingIsKnown) {
-    const vec2 moments(0.9f, 0.82f);
-    EXPECT_EQ(neighbourVisibility(moments, 0.8f), 1.0f);
-    EXPECT_EQ(neighbourVisibility(moments, 0.99f), chebyshevWeight(0.9f, 0.82f, 0.99f, kRulesMeasured));
-    EXPECT_EQ(neighbourVisibility(vec2(1.0f, 1.0f), 1.0f), chebyshevFloor(kRulesMeasured));
+    EXPECT_EQ(neighbourVisibility(0.9f, 0.82f, 0.8f), 1.0f);
+    EXPECT_EQ(neighbourVisibility(0.9f, 0.82f, 0.99f), chebyshevWeight(0.9f, 0.82f, 0.99f, kRulesMeasured));
+    EXPECT_EQ(neighbourVisibility(1.0f, 1.0f, 1.0f), chebyshevFloor(kRulesMeasured));
 }
 
 // At the limit of doubt the cage answers alone, at weight 0 the neighbours do, between them roots of light are mixed.

@@ -10,13 +10,9 @@ KERNELS_BEGIN
 // Maximum number of volumes in a field.
 KERNEL_CONST int kMostVolumes = 32;
 
-// The order of probegi::LeakGuard.
-KERNEL_CONST int kGuardNone = 0;
-KERNEL_CONST int kGuardMoments = 1;
-
 struct FieldConstants {
     int volumeCount;
-    int guard;
+    int guard;             // its row in kernels/guards/list.h
     int rules;             // of the query, kRulesMeasured or kRulesPaper (kernels/lookup/probe_query.h)
     float selfShadowBias;  // FieldSettings'
     int irradianceTexels;  // side of a map without border

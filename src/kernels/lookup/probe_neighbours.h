@@ -1,4 +1,4 @@
-// The answer where the eight probes of a cage do not know: their neighbours, weighted by distance, facing,
+// The answer where the eight probes of a cage have too little weight: their neighbours, weighted by distance, facing,
 // what their guard says of the way and whether they stand in walls.
 #ifndef PROBEGI_KERNELS_PROBE_NEIGHBOURS_H
 #define PROBEGI_KERNELS_PROBE_NEIGHBOURS_H
@@ -7,19 +7,12 @@
 
 KERNELS_BEGIN
 
-// Sum of weights below which the cage does not know: what is left are probes in walls, or probes whose moments say that
+// Sum of weights below which the cage cannot answer: what is left are probes in walls, or probes whose moments say that
 // they do not see the point (eight of them at the floor of the Chebyshev weight sum to 1e-6 at most). Ten times this
 // asks twice as often and changes nothing that was measured.
 KERNEL_CONST float kDoubtful = 0.0005f;
-// Added to lengths, so that a point on a probe divides by no zero.
+// Added to lengths, so that a point on a probe does not divide by zero.
 KERNEL_CONST float kNoLength = 1e-20f;
-
-// How far a neighbour sees the point by its moments; `distance` in units of the farthest stored one, beyond which the
-// moments cannot tell what is in the way.
-KERNEL_FN float neighbourVisibility(vec2 moments, float distance) {
-    return distance < 1.0f ? chebyshevWeight(moments.x, moments.y, distance, kRulesMeasured)
-                           : chebyshevFloor(kRulesMeasured);
-}
 
 // Weight of one neighbour. `outside`: outsideWeight(); `toProbe`: from the point, metres; `visible`: what the
 // guard says, 0..1.

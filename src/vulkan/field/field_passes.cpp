@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/sentence.h"
+#include "field/guard_number.h"
 #include "field/probe_emitters.h"
 #include "kernels/lookup/probe_query.h"
 #include "kernels/probe/solid_probe.h"
@@ -95,7 +96,7 @@ kernels::FieldConstants FieldPasses::constants(const FieldSettings& settings) co
     };
     kernels::FieldConstants c{
         .volumeCount = int(m_volumes.size()),
-        .guard = settings.guard == LeakGuard::none ? kernels::kGuardNone : kernels::kGuardMoments,
+        .guard = guardNumber(settings.guard),
         .rules = m_desc.rules == FieldRules::paper ? kernels::kRulesPaper : kernels::kRulesMeasured,
         .selfShadowBias = settings.selfShadowBias,
         .irradianceTexels = m_desc.irradianceTexels,

@@ -8,7 +8,7 @@
 //     color += albedo * e / 3.14159265;                        // what a Lambert surface reflects
 //
 // Needs GLSL 4.60 and GL_EXT_scalar_block_layout. All names begin with probegi, PROBEGI, or are those of the kernels
-// below. With PROBEGI_COUNT_FALLBACKS defined, queries that no probe of their cage could answer are counted for
+// below. With PROBEGI_COUNT_FALLBACKS defined, queries whose cage had too little weight are counted for
 // Field::fallbackQueries(); the stage then needs atomics on storage buffers.
 #ifndef PROBEGI_QUERY_GLSL
 #define PROBEGI_QUERY_GLSL
@@ -16,12 +16,9 @@
 #extension GL_EXT_scalar_block_layout : require
 
 #include "kernels/abi/field_constants.h"
-#include "kernels/probe/irradiance_decoding.h"
+#include "kernels/lookup/access.h"
 #include "kernels/probe/octahedral.h"
-#include "kernels/volume/probe_cage.h"
-#include "kernels/volume/volume_frame.h"
-#include "kernels/lookup/probe_neighbours.h"
-#include "kernels/lookup/surface_gradient.h"
+#include "kernels/volume/volume_choice.h"
 
 #ifndef PROBEGI_SET
 #define PROBEGI_SET 0
@@ -38,7 +35,6 @@
 layout(set = PROBEGI_SET, binding = PROBEGI_BINDING, scalar) uniform ProbegiConstants {
     FieldConstants probegiField;
 };
-#define probegiVolume probegiField.volumes[0]
 layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 1) uniform sampler2DArray probegiIrradianceAtlas;
 layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 2) uniform sampler2DArray probegiVisibilityAtlas;
 layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 3, scalar) PROBEGI_STATES_ACCESS buffer ProbegiStates {
@@ -47,166 +43,105 @@ layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 3, scalar) PROBEGI_STATES_
 }
 probegiStates;
 
-// For ray data of your own: how many probes there are, and where each stands. Its rays begin there.
-int probegiProbeCount() {
-    const Volume last = probegiField.volumes[probegiField.volumeCount - 1];
-    return last.firstSlot + volumeProbes(last);
-}
+// Which volume has the probe in a slot.
 int probegiVolumeOf(int slot) {
     int volume = 0;
     while (volume + 1 < probegiField.volumeCount && slot >= probegiField.volumes[volume + 1].firstSlot) ++volume;
     return volume;
 }
+
+// For ray data of your own: how many probes there are, and where each stands. Its rays begin there.
+int probegiProbeCount() {
+    const Volume last = probegiField.volumes[probegiField.volumeCount - 1];
+    return last.firstSlot + volumeProbes(last);
+}
 vec3 probegiProbePosition(int slot) {
-    const Volume volume = probegiField.volumes[probegiVolumeOf(slot)];
-    return probePosition(volume, probeCell(volume, slot));
+    const Volume v = probegiField.volumes[probegiVolumeOf(slot)];
+    return probePosition(v, probeCell(v, slot));
 }
 
-// What a probe stores towards a normal, encoded. `texel`: octTexelPosition of the normal.
-vec3 probegiStored(ivec3 cell, vec2 texel) {
-    const ivec3 tile = poolTile(probegiField.tiles, probeSlot(probegiVolume, cell));
-    const vec2 at = atlasCoordinates(tile, texel, probegiField.irradianceTexels, probegiField.irradianceTexelSize);
-    return textureLod(probegiIrradianceAtlas, vec3(at, float(tile.z)), 0.0).rgb;
-}
-
-// Mean and mean square of distance, as fractions of the farthest, that a probe stores in a direction.
-vec2 probegiMoments(int slot, vec3 direction) {
+// Texture coordinates of a point of a slot's map, `texel`: octTexelPosition().
+vec3 probegiIrradianceAt(int slot, vec2 texel) {
     const ivec3 tile = poolTile(probegiField.tiles, slot);
-    const vec2 texel = octTexelPosition(octEncode(direction), probegiField.visibilityTexels);
-    const vec2 at = atlasCoordinates(tile, texel, probegiField.visibilityTexels, probegiField.visibilityTexelSize);
-    return textureLod(probegiVisibilityAtlas, vec3(at, float(tile.z)), 0.0).rg;
+    return vec3(atlasCoordinates(tile, texel, probegiField.irradianceTexels, probegiField.irradianceTexelSize),
+                float(tile.z));
+}
+vec3 probegiVisibilityAt(int slot, vec2 texel) {
+    const ivec3 tile = poolTile(probegiField.tiles, slot);
+    return vec3(atlasCoordinates(tile, texel, probegiField.visibilityTexels, probegiField.visibilityTexelSize),
+                float(tile.z));
 }
 
-// Leak guard: how far a probe of the cage may be used. `fromProbe`: to the biased point, metres.
-float probegiGuard(ivec3 cell, vec3 fromProbe) {
-    if (probegiField.guard == kGuardNone) return 1.0;
-    const vec2 moments = probegiMoments(probeSlot(probegiVolume, cell), fromProbe);
-    return chebyshevWeight(moments.x, moments.y, length(fromProbe) * probegiVolume.inverseMaxDistance,
-                           probegiField.rules);
-}
-
-// The same for the neighbours of a cage that does not know.
-float probegiNeighbourGuard(ivec3 cell, vec3 fromProbe) {
-    if (probegiField.guard == kGuardNone) return 1.0;
-    return neighbourVisibility(probegiMoments(probeSlot(probegiVolume, cell), fromProbe),
-                               (length(fromProbe) + kNoLength) * probegiVolume.inverseMaxDistance);
-}
-
-// How far a probe may be used at all.
-float probegiOutside(ivec3 cell) {
-    return outsideWeight(probegiStates.backfaceShare[probeSlot(probegiVolume, cell)], probegiField.rules);
-}
-
-// What a probe answers in the space in which probes are blended.
-vec3 probegiRoot(ivec3 cell, vec2 texel) {
-    const vec3 stored = probegiStored(cell, texel);
-    return vec3(decodeToBlendSpace(stored.x), decodeToBlendSpace(stored.y), decodeToBlendSpace(stored.z));
-}
-
-// E where the cage does not know; `base`: its lowest probe.
-vec3 probegiNeighbours(vec3 position, vec3 normal, vec3 bias, ivec3 base, vec2 texel) {
-    vec3 sum = vec3(0.0);
-    float weightSum = 0.0;
-    for (int i = 0; i < kNeighbours; ++i) {
-        const ivec3 cell = neighbourCell(base, i);
-        if (!isInGrid(cell, probegiVolume.counts)) continue;
-        const float outside = probegiOutside(cell);
-        if (outside <= 0.0) continue;
-        const vec3 toProbe = probePlace(cell, probegiVolume.origin, probegiVolume.spacing) - position;
-        const float visible = probegiNeighbourGuard(cell, bias - toProbe);
-        const float weight = neighbourWeight(outside, toProbe, normal, visible, probegiVolume.minSpacing);
-        const vec3 stored = probegiStored(cell, texel);
-        sum += weight * kPi * vec3(decodeIrradiance(stored.x), decodeIrradiance(stored.y), decodeIrradiance(stored.z));
-        weightSum += weight;
-    }
-    return weightSum > 0.0 ? sum / weightSum : vec3(0.0);
-}
-
-// Which layer of probes tells how light changes along a normal (kernels/lookup/surface_gradient.h).
-struct ProbegiFront {
-    int axis;
-    int side;     // 1 or 0: the cage's layer in front, along the axis
-    ivec3 step;   // to the layer beyond
-    float trust;  // 0 where that layer is not in the grid
+// How the look-up reads the field: what kernels/lookup/access.h asks for.
+struct Access {
+    int rules;
+    int guard;
+    float selfShadowBias;
 };
+#define MapPoint vec2
 
-ProbegiFront probegiFront(vec3 normal, ivec3 base) {
-    ProbegiFront front;
-    front.axis = dominantAxis(normal);
-    front.side = normal[front.axis] > 0.0 ? 1 : 0;
-    front.step = ivec3(0);
-    front.step[front.axis] = 2 * front.side - 1;
-    const int beyond = base[front.axis] + (front.side == 1 ? 2 : -1);
-    const bool known =
-        probegiField.rules == kRulesMeasured && beyond >= 0 && beyond < probegiVolume.counts[front.axis];
-    front.trust = known ? axisTrust(normal) : 0.0;
-    return front;
+Access probegiAccess() {
+    Access access;
+    access.rules = probegiField.rules;
+    access.guard = probegiField.guard;
+    access.selfShadowBias = probegiField.selfShadowBias;
+    return access;
 }
-
-// How far a probe in front and the one beyond may tell.
-float probegiPair(ivec3 cell, ProbegiFront front) {
-    const float outside = probegiOutside(cell + front.step);
-    if (probegiField.guard == kGuardNone) return outside;
-    const vec2 moments = probegiMoments(probeSlot(probegiVolume, cell), vec3(front.step));
-    return outside * chebyshevWeight(moments.x, moments.y,
-                                     probegiVolume.spacing[front.axis] * probegiVolume.inverseMaxDistance,
-                                     probegiField.rules);
+vec2 visibilityPoint(Access access, vec3 direction) {
+    return octTexelPosition(octEncode(direction), probegiField.visibilityTexels);
 }
-
-// Irradiance E in W m^-2 at a point of a surface that faces `normal`, seen from the direction `viewer` (both unit; zero
-// stands for the normal, where nobody looks). Outside the volume its nearest cell answers.
-vec3 probegiIrradiance(vec3 point, vec3 normal, vec3 viewer) {
-    const vec3 toViewer = viewerOf(viewer, normal);
-    const ivec3 counts = probegiVolume.counts;
-    const int rules = probegiField.rules;
-    const float minSpacing = probegiVolume.minSpacing;
-    const vec3 position = clampToGrid(point, probegiVolume.origin, probegiVolume.spacing, counts);
-    const vec3 bias = visibilityBias(normal, toViewer, minSpacing, probegiField.selfShadowBias, rules);
-    const vec3 moved = position + cageBias(normal, toViewer, minSpacing, probegiField.selfShadowBias, rules);
-    const vec3 local = gridCoordinates(moved, probegiVolume.origin, probegiVolume.inverseSpacing);
-    const vec3 base = cageBase(local, counts);
-    const vec3 alpha = cageAlpha(local, base);
-    const vec2 texel = octTexelPosition(octEncode(normal), probegiField.irradianceTexels);
-    const ProbegiFront front = probegiFront(normal, ivec3(base));
-    // The pair's weight is that of the probe in front, without the share that the point's depth gives to its layer.
-    const float alongAxis = trilinearFactor(float(front.side), alpha[front.axis]);
-    vec3 sum = vec3(0.0);
-    vec3 rise = vec3(0.0);
-    float weightSum = 0.0;
-    float ahead = 0.0;
-    float pairWeight = 0.0;
-    for (int i = 0; i < 8; ++i) {
-        const ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
-        const ivec3 cell = ivec3(base) + corner;
-        const vec3 toProbe = probePlace(cell, probegiVolume.origin, probegiVolume.spacing) - position;
-        const float cosToProbe = cosineToProbe(dot(toProbe, normal), length(toProbe), minSpacing);
-        const float trilinear = trilinearFactor(float(corner.x), alpha.x) * trilinearFactor(float(corner.y), alpha.y) *
-                                trilinearFactor(float(corner.z), alpha.z);
-        const float weight = crushWeight(backfaceWeight(cosToProbe, rules) * probegiGuard(cell, bias - toProbe)) *
-                             trilinear * probegiOutside(cell);
-        const vec3 root = probegiRoot(cell, texel);
-        sum += weight * root;
-        weightSum += weight;
-        ahead += weight * dot(toProbe, normal);
-        if (front.trust > 0.0 && corner[front.axis] == front.side) {
-            const float pair = weight / alongAxis * probegiPair(cell, front);
-            rise += pair * (probegiRoot(cell + front.step, texel) - root);
-            pairWeight += pair;
-        }
-    }
-    if (rules == kRulesPaper || weightSum >= kDoubtful) {
-        const vec3 root = sum / weightSum;
-        if (front.trust <= 0.0) return root * root * kPi;
-        const float cells = cellsAhead(ahead / weightSum, probegiVolume.spacing[front.axis], normal[front.axis]);
-        const vec3 there = vec3(rootAtSurface(root.x, rise.x, pairWeight, cells, front.trust),
-                                rootAtSurface(root.y, rise.y, pairWeight, cells, front.trust),
-                                rootAtSurface(root.z, rise.z, pairWeight, cells, front.trust));
-        return there * there * kPi;
-    }
+vec2 irradiancePoint(Access access, vec3 normal) {
+    return octTexelPosition(octEncode(normal), probegiField.irradianceTexels);
+}
+vec2 axisPoint(Access access, Volume v, int axis, bool up) {
+    return visibilityPoint(access, axisDirection(v, axis, up));
+}
+void storedMoments(Access access, int slot, vec2 at, out float mean, out float meanSquare) {
+    const vec2 moments = textureLod(probegiVisibilityAtlas, probegiVisibilityAt(slot, at), 0.0).rg;
+    mean = moments.x;
+    meanSquare = moments.y;
+}
+void momentsOnAxis(Access access, Volume v, int slot, vec2 at, out float mean, out float meanSquare) {
+    storedMoments(access, slot, at, mean, meanSquare);
+}
+float storedBackfaceShare(Access access, int slot) {
+    return probegiStates.backfaceShare[slot];
+}
+vec3 storedIrradiance(Access access, int slot, vec2 at) {
+    return textureLod(probegiIrradianceAtlas, probegiIrradianceAt(slot, at), 0.0).rgb;
+}
+float givenVisibility(Access access, int corner) {
+    return 1.0;
+}
+void countFallback(Access access) {
 #ifdef PROBEGI_COUNT_FALLBACKS
     atomicAdd(probegiStates.fallbacks, 1u);
 #endif
-    return completedByNeighbours(sum, weightSum, probegiNeighbours(position, normal, bias, ivec3(base), texel));
+}
+
+#include "kernels/lookup/irradiance.h"
+
+// Mean and mean square of distance, as fractions of the farthest, that a probe stores in a direction.
+vec2 probegiMoments(int slot, vec3 direction) {
+    const Access access = probegiAccess();
+    vec2 moments;
+    storedMoments(access, slot, visibilityPoint(access, direction), moments.x, moments.y);
+    return moments;
+}
+
+// The volume that answers at a point: the first that holds it, else the nearest.
+int probegiVolumeAt(vec3 point) {
+    if (probegiField.volumeCount == 1) return 0;
+    VolumeChoice choice = noVolume();
+    for (int i = 0; i < probegiField.volumeCount; ++i)
+        choice = chooseVolume(choice, probegiField.volumes[i], i, point);
+    return choice.volume;
+}
+
+// Irradiance E in W m^-2 at a point of a surface that faces `normal`, seen from the direction `viewer` (both unit; zero
+// stands for the normal, where nobody looks). Outside all volumes the nearest cell answers.
+vec3 probegiIrradiance(vec3 point, vec3 normal, vec3 viewer) {
+    return irradianceIn(probegiAccess(), probegiField.volumes[probegiVolumeAt(point)], point, normal, viewer);
 }
 
 #endif

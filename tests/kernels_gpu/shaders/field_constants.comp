@@ -1,12 +1,11 @@
 #include "lane.h"
 
+#include "some_volume.h"
+
 #include "kernels/abi/field_constants.h"
 
-// Structs only: that both languages know them by the same members.
 void evaluate(INOUT(Lane) lane) {
     FieldConstants constants;
-    constants.volumeCount = takeIndex(lane, kMostVolumes);
-    constants.guard = kGuardMoments;
-    constants.volumes[1].firstSlot = takeIndex(lane, 1000);
-    giveBits(lane, uint(constants.volumeCount + constants.guard - kGuardNone + constants.volumes[1].firstSlot));
+    constants.volumes[kMostVolumes - 1] = takeVolume(lane);
+    giveBits(lane, uint(volumeProbes(constants.volumes[kMostVolumes - 1])));
 }

@@ -4,8 +4,8 @@
 
 void evaluate(INOUT(Lane) lane) {
     PoolTiles tiles;
-    tiles.rowShift = takeIndex(lane, 7);
-    tiles.layerShift = tiles.rowShift + takeIndex(lane, 7);
+    tiles.rowShift = takeIndex(lane, 8);
+    tiles.layerShift = tiles.rowShift + takeIndex(lane, 8);
     const ivec3 tile = poolTile(tiles, takeIndex(lane, 1 << 20));
     giveBits(lane, uint(tile.x));
     giveBits(lane, uint(tile.y));
@@ -14,10 +14,8 @@ void evaluate(INOUT(Lane) lane) {
     const ivec2 origin = tileOrigin(tile, texels);
     giveBits(lane, uint(origin.x));
     giveBits(lane, uint(origin.y));
-    const float side = float((1 << tiles.rowShift) * (texels + 2));
+    const float side = float((texels + 2) << 8);
     const float u = takeBetween(lane, -1.0f, float(texels));
     const float v = takeBetween(lane, -1.0f, float(texels));
-    const vec2 at = atlasCoordinates(tile, vec2(u, v), texels, vec2(1.0f / side, 1.0f / side));
-    give(lane, at.x, 1e-6f);
-    give(lane, at.y, 1e-6f);
+    giveVec2(lane, atlasCoordinates(tile, vec2(u, v), texels, vec2(1.0f / side, 1.0f / side)), 1e-6f);
 }

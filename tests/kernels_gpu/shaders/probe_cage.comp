@@ -14,13 +14,25 @@ void evaluate(INOUT(Lane) lane) {
     const int quarterY = takeIndex(lane, 64) - 24;
     const int quarterZ = takeIndex(lane, 64) - 24;
     const ivec3 counts = ivec3(countX, countY, countZ);
+    const int phaseX = takeIndex(lane, countX);
+    const int phaseY = takeIndex(lane, countY);
+    const int phaseZ = takeIndex(lane, countZ);
+    Volume v;
+    v.origin = origin;
+    v.spacing = spacing;
+    v.inverseSpacing = vec3(1.0f) / spacing;
+    v.counts = counts;
+    v.phase = ivec3(phaseX, phaseY, phaseZ);
+    v.firstSlot = 100;
     const vec3 inGrid = vec3(float(quarterX), float(quarterY), float(quarterZ)) * 0.25f;
 
-    giveVec3(lane, clampToGrid(position, origin, spacing, counts), 2e-6f);
-    giveVec3(lane, gridCoordinates(position, origin, vec3(1.0f) / spacing), 2e-5f);
-    const vec3 base = cageBase(inGrid, counts);
+    giveVec3(lane, clampToVolume(v, position), 2e-6f);
+    giveVec3(lane, gridCoordinates(v, position), 2e-5f);
+    const vec3 base = cageBase(v, inGrid);
     giveVec3(lane, base, 0.0f);
     giveVec3(lane, cageAlpha(inGrid, base), 0.0f);
+    const CageSlots slots = cageSlots(v, base);
+    for (int corner = 0; corner < 8; ++corner) giveBits(lane, uint(cornerSlot(v, slots, corner)));
     const ivec3 neighbour = neighbourCell(ivec3(base), takeIndex(lane, kNeighbours));
     giveBits(lane, uint(neighbour.x + 64));
     giveBits(lane, uint(neighbour.y + 64));

@@ -1,0 +1,35 @@
+// The guards of list.h by number; one that is not there guards nothing.
+#ifndef PROBEGI_KERNELS_GUARDS_H
+#define PROBEGI_KERNELS_GUARDS_H
+
+#include "kernels/guards/list.h"
+
+KERNELS_BEGIN
+
+LOOKUP_FN Real guardSeen(IN(Access) access, IN(Volume) v, Int slot, Real3 fromProbe) {
+#define GUARD(number, seen, between, farther) \
+    if (access.guard == number) return seen(access, v, slot, fromProbe);
+    PROBEGI_GUARDS(GUARD)
+#undef GUARD
+    return Real(1.0f);
+}
+
+LOOKUP_FN Real guardBetween(IN(Access) access, IN(Volume) v, Int slot, OF_ACCESS(MapPoint) along, Real distance) {
+#define GUARD(number, seen, between, farther) \
+    if (access.guard == number) return between(access, v, slot, along, distance);
+    PROBEGI_GUARDS(GUARD)
+#undef GUARD
+    return Real(1.0f);
+}
+
+LOOKUP_FN Real guardFar(IN(Access) access, IN(Volume) v, Int slot, Real3 fromProbe) {
+#define GUARD(number, seen, between, farther) \
+    if (access.guard == number) return farther(access, v, slot, fromProbe);
+    PROBEGI_GUARDS(GUARD)
+#undef GUARD
+    return Real(1.0f);
+}
+
+KERNELS_END
+
+#endif

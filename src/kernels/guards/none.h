@@ -1,0 +1,23 @@
+// The leaking baseline: every probe is as good as its place. What a guard's functions mean is in list.h.
+#if !defined(PROBEGI_KERNELS_NONE_H) || defined(KERNELS_IN_LANES)
+#define PROBEGI_KERNELS_NONE_H
+
+#include "kernels/lookup/access.h"
+
+KERNELS_BEGIN
+
+LOOKUP_FN Real noneSeen(IN(Access), IN(Volume), Int, Real3) {
+    return Real(1.0f);
+}
+
+LOOKUP_FN Real noneBetween(IN(Access), IN(Volume), Int, OF_ACCESS(MapPoint), Real) {
+    return Real(1.0f);
+}
+
+LOOKUP_FN Real noneFar(IN(Access), IN(Volume), Int, Real3) {
+    return Real(1.0f);
+}
+
+KERNELS_END
+
+#endif

@@ -1,0 +1,56 @@
+// The whole look-up in one volume: cage, weights, gather, and the neighbours where the cage has too little weight.
+// A guard that brings a storage and a gather of its own (masks) branches off in irradianceIn(), before the cage.
+#ifndef PROBEGI_KERNELS_IRRADIANCE_H
+#define PROBEGI_KERNELS_IRRADIANCE_H
+
+#include "kernels/lookup/gather.h"
+#include "kernels/lookup/probe_neighbours.h"
+
+KERNELS_BEGIN
+
+// E of the cage's neighbours, W m^-2; black only where all of them stand in walls. `at`: irradiancePoint().
+LOOKUP_FN vec3 neighboursIrradiance(IN(Access) access, IN(Volume) v, IN(Cage) cage, OF_ACCESS(MapPoint) at) {
+    vec3 sum = vec3(0.0f);
+    float weightSum = 0.0f;
+    for (int i = 0; i < kNeighbours; ++i) {
+        const ivec3 cell = neighbourCell(ivec3(cage.base), i);
+        if (!isInVolume(v, cell)) continue;
+        const int slot = probeSlot(v, cell);
+        const float outside = outsideWeight(storedBackfaceShare(access, slot), access.rules);
+        if (outside <= 0.0f) continue;
+        const vec3 toProbe = probePlace(v, cell) - cage.position;
+        const float visible = guardFar(access, v, slot, cage.bias - toProbe);
+        const float weight = neighbourWeight(outside, toProbe, cage.normal, visible, v.minSpacing);
+        const vec3 stored = storedIrradiance(access, slot, at);
+        sum +=
+            weight * (vec3(decodeIrradiance(stored.x), decodeIrradiance(stored.y), decodeIrradiance(stored.z)) * kPi);
+        weightSum += weight;
+    }
+    return weightSum > 0.0f ? sum / weightSum : vec3(0.0f);
+}
+
+// Whether the cage's weights are enough for an answer. The paper asks no one else.
+KERNEL_FN bool enoughWeight(float weightSum, int rules) {
+    return rules == kRulesPaper || weightSum >= kDoubtful;
+}
+
+// E in W m^-2 at a point of a surface that faces `normal`, seen from `toViewer` (both unit; zero stands for the normal,
+// where nobody looks), all in the world. Outside the volume its nearest point answers.
+LOOKUP_FN vec3 irradianceIn(IN(Access) access, IN(Volume) v, vec3 point, vec3 normal, vec3 toViewer) {
+    const Cage cage = cageAround(v, point, normal, toViewer, access.selfShadowBias, access.rules);
+    const CageWeights w = weighCage(access, v, cage);
+    const OF_ACCESS(MapPoint) at = irradiancePoint(access, normal);
+    const CageLight light = gatherLight(access, w, at);
+    if (enoughWeight(w.weightSum, access.rules)) {
+        const float inverse = 1.0f / w.weightSum;
+        return vec3(irradianceAtSurface(w, light.root.x, light.rise.x, inverse, access.rules),
+                    irradianceAtSurface(w, light.root.y, light.rise.y, inverse, access.rules),
+                    irradianceAtSurface(w, light.root.z, light.rise.z, inverse, access.rules));
+    }
+    countFallback(access);
+    return completedByNeighbours(light.root, w.weightSum, neighboursIrradiance(access, v, cage, at));
+}
+
+KERNELS_END
+
+#endif

@@ -1,0 +1,27 @@
+// A guard for the tests: a point may use the probes of even slots.
+#if !defined(PROBEGI_KERNELS_TOY_H) || defined(KERNELS_IN_LANES)
+#define PROBEGI_KERNELS_TOY_H
+
+#include "kernels/lookup/access.h"
+
+KERNELS_BEGIN
+
+KERNEL_FN Real evenSlot(Int slot) {
+    return select((slot & Int(1)) == Int(0), Real(1.0f), Real(0.0f));
+}
+
+LOOKUP_FN Real toySeen(IN(Access), IN(Volume), Int slot, Real3) {
+    return evenSlot(slot);
+}
+
+LOOKUP_FN Real toyBetween(IN(Access), IN(Volume), Int slot, OF_ACCESS(MapPoint), Real) {
+    return evenSlot(slot);
+}
+
+LOOKUP_FN Real toyFar(IN(Access), IN(Volume), Int slot, Real3) {
+    return evenSlot(slot);
+}
+
+KERNELS_END
+
+#endif

@@ -1,0 +1,33 @@
+#include "lane.h"
+
+#include "lookup_access.h"
+#include "some_cage.h"
+
+#include "kernels/lookup/cage_weights.h"
+
+void giveWeights(INOUT(Lane) lane, CageWeights w) {
+    for (int corner = 0; corner < 8; ++corner) {
+        giveBits(lane, uint(w.slot[corner]));
+        give(lane, w.weight[corner], 1e-4f);
+    }
+    give(lane, w.weightSum, 2e-4f);
+    give(lane, w.ahead, 2e-4f);
+    for (int k = 0; k < 4; ++k) {
+        giveBits(lane, uint(frontCorner(w.axis, w.up, k)));
+        give(lane, w.pair[k], 1e-3f);
+    }
+    giveBits(lane, uint(w.step + 4096));
+    give(lane, w.pairSum, 2e-3f);
+    give(lane, w.cells, 1e-3f);
+    give(lane, w.trust, 1e-3f);
+    give(lane, irradianceAtSurface(w, 0.5f * w.weightSum, 0.1f * w.pairSum, 1.0f / w.weightSum, kRulesMeasured), 2e-3f);
+}
+
+void evaluate(INOUT(Lane) lane) {
+    const Volume v = takeVolume(lane);
+    const Cage cage = takeCage(lane, v);
+    const int rules = takeIndex(lane, 2);
+    const int guard = takeIndex(lane, 2);
+    const Access access = accessTo(rules, guard, 0.27f);
+    giveWeights(lane, weighCage(access, v, cage));
+}

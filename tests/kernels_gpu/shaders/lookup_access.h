@@ -1,0 +1,60 @@
+// A field of closed form for kernels/lookup and kernels/guards. A place in a map is a direction.
+#ifndef PROBEGI_TESTS_KERNELS_GPU_SHADERS_LOOKUP_ACCESS_H
+#define PROBEGI_TESTS_KERNELS_GPU_SHADERS_LOOKUP_ACCESS_H
+
+#include "kernels/lookup/access.h"
+
+KERNELS_BEGIN
+
+struct Access {
+    int rules;
+    int guard;
+    float selfShadowBias;
+    float walls;  // share of backs that every third probe has
+#ifdef __cplusplus
+    using MapPoint = vec3;
+#endif
+};
+#ifndef __cplusplus
+#define MapPoint vec3
+#endif
+
+KERNEL_FN Access accessTo(int rules, int guard, float walls) {
+    Access access;
+    access.rules = rules;
+    access.guard = guard;
+    access.selfShadowBias = 0.3f;
+    access.walls = walls;
+    return access;
+}
+
+KERNEL_FN vec3 visibilityPoint(Access, vec3 direction) {
+    return direction / (length(direction) + 1e-6f);
+}
+KERNEL_FN vec3 irradiancePoint(Access, vec3 normal) {
+    return normal;
+}
+KERNEL_FN vec3 axisPoint(Access access, Volume v, int axis, bool up) {
+    return visibilityPoint(access, axisDirection(v, axis, up));
+}
+KERNEL_FN void storedMoments(Access, int slot, vec3 at, OUT(float) mean, OUT(float) meanSquare) {
+    mean = 0.35f + 0.05f * float(slot & 3) + 0.2f * at.x * at.y;
+    meanSquare = mean * mean + 0.02f;
+}
+KERNEL_FN void momentsOnAxis(Access access, Volume, int slot, vec3 at, OUT(float) mean, OUT(float) meanSquare) {
+    storedMoments(access, slot, at, mean, meanSquare);
+}
+KERNEL_FN float storedBackfaceShare(Access access, int slot) {
+    return slot % 3 == 0 ? access.walls : 0.0f;
+}
+KERNEL_FN vec3 storedIrradiance(Access, int slot, vec3 at) {
+    return vec3(0.9f + 0.1f * float(slot & 3), 1.0f + 0.2f * at.z, 0.5f + 0.02f * float(slot % 11));
+}
+KERNEL_FN float givenVisibility(Access, int corner) {
+    return corner == 5 ? 0.5f : 1.0f;
+}
+KERNEL_FN void countFallback(Access) {}
+
+KERNELS_END
+
+#endif

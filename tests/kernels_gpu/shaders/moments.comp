@@ -1,0 +1,23 @@
+#include "lane.h"
+
+#include "lookup_access.h"
+#include "some_volume.h"
+
+#include "kernels/guards/moments.h"
+
+void evaluate(INOUT(Lane) lane) {
+    const Volume v = takeVolume(lane);
+    const Access access = accessTo(takeIndex(lane, 2), 1, 0.0f);
+    const vec3 fromProbe = takeVector(lane, -3.0f, 3.0f);
+    const float mean = takeUnit(lane);
+    const float variance = takeUnit(lane);
+    const float distance = takeBetween(lane, 0.0f, 2.0f);
+    give(lane, neighbourVisibility(mean, mean * mean + 0.01f + variance, distance), 2e-4f);
+    give(lane, momentsSeen(access, v, 5, fromProbe), 5e-4f);
+    give(lane, momentsBetween(access, v, 5, axisPoint(access, v, 1, true), distance), 5e-4f);
+    // Where the farthest distance ends the answer jumps.
+    if (abs(length(fromProbe) * v.inverseMaxDistance - 1.0f) < 1e-3f)
+        give(lane, 0.0f, 0.0f);
+    else
+        give(lane, momentsFar(access, v, 5, fromProbe), 5e-4f);
+}
