@@ -24,7 +24,7 @@ public:
     }
 
     /// Runs a pass over a grid of work groups.
-    void dispatch(const std::string& shader, std::uint32_t x, std::uint32_t y = 1, std::uint32_t z = 1,
+    void dispatch(const Shader& shader, std::uint32_t x, std::uint32_t y = 1, std::uint32_t z = 1,
                   std::span<const std::uint32_t> constants = {}) const {
         m_commands.bindPipeline(vk::PipelineBindPoint::eCompute, m_device.pipelines->get(shader, constants),
                                 dispatcher());
@@ -32,14 +32,14 @@ public:
     }
     /// Runs a pass over `count` threads. More groups than one axis may have are spread over
     /// two: shaders find their number with globalIndex() of shaders/common.glsl.
-    void dispatchOver(const std::string& shader, std::uint64_t count) const {
+    void dispatchOver(const Shader& shader, std::uint64_t count) const {
         const std::uint64_t groups = (count + kGroupSize - 1) / kGroupSize;
         const std::uint64_t rows = (groups + kGroupsPerRow - 1) / kGroupsPerRow;
         if (groups) dispatch(shader, std::uint32_t(rows > 1 ? kGroupsPerRow : groups), std::uint32_t(rows));
     }
     /// Runs a pass over `blocks` times `columns` groups: x and z hold a group's block, y its column. Devices need not
     /// take more than 65,535 groups along an axis, and blocks of probes may be more.
-    void dispatchOver(const std::string& shader, std::uint32_t blocks, std::uint32_t columns,
+    void dispatchOver(const Shader& shader, std::uint32_t blocks, std::uint32_t columns,
                       std::span<const std::uint32_t> constants = {}) const {
         const std::uint32_t rows = (blocks + kGroupsPerRow - 1) / kGroupsPerRow;
         dispatch(shader, rows > 1 ? kGroupsPerRow : blocks, columns, rows, constants);

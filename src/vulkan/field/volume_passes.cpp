@@ -214,7 +214,6 @@ void VolumePasses::recordWeights(const Recorder& recorder, const UpdateFrame& fr
 void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
                                const GpuLighting& lighting, const RayAddresses& data, Profiler* profiler) {
     const std::uint64_t rays = std::uint64_t(m_layout.probes) * (m_layout.rays + frame.fixedDirections.size());
-    const std::string tracer = scene.impl().shaderSuffix();
     recorder.bindScene(scene.impl().set());
     recorder.push(kernels::TracePush{.directions = packAddress(m_directions.address()),
                                      .hits = packAddress(m_hits.address()),
@@ -230,16 +229,16 @@ void VolumePasses::recordTrace(const Recorder& recorder, const UpdateFrame& fram
                                      .emitterSeed = frame.raySeed});
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "trace");
-        recorder.dispatchOver("trace_probes" + tracer, rays);
+        recorder.dispatchOver(scene.impl().shader("trace_probes"), rays);
     }
     recorder.computeToCompute();
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "shade");
-        recorder.dispatchOver("shade_probes" + tracer, rays);
+        recorder.dispatchOver(scene.impl().shader("shade_probes"), rays);
     }
     if (data.looks > 0) {
         const PassScope scope(recorder, m_device.impl(), profiler, "emitters");
-        recorder.dispatchOver("look_at_emitters" + tracer, m_layout.probes * std::uint64_t(data.looks));
+        recorder.dispatchOver(scene.impl().shader("look_at_emitters"), m_layout.probes * std::uint64_t(data.looks));
     }
     recorder.computeToCompute();
 }
@@ -340,7 +339,7 @@ void VolumePasses::recordUpdate(const Recorder& recorder, const UpdateFrame& fra
     const int looks = scene.impl().emitters.empty() ? 0 : emitterLooks(frame.desc);
     makeRayBuffers(looks);
     for (const char* shader : {"trace_probes", "shade_probes", "look_at_emitters"})
-        m_device.impl().pipelines->get(shader + scene.impl().shaderSuffix());
+        m_device.impl().pipelines->get(scene.impl().shader(shader));
     const RayAddresses data{m_rayData.address(), m_fixedRays.address(), m_emitterLights.address(), looks};
     beginUpdate(recorder, frame, profiler);
     recordTrace(recorder, frame, scene, lighting, data, profiler);

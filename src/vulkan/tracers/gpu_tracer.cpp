@@ -71,7 +71,7 @@ Result<void> GpuTracer::closestHits(std::span<const Ray> rays, std::span<Hit> hi
             [&](const Recorder& recorder) {
                 recorder.bindScene(m_scene.impl().set());
                 recorder.push(push);
-                recorder.dispatchOver("trace_rays" + m_scene.impl().shaderSuffix(), count);
+                recorder.dispatchOver(m_scene.impl().shader("trace_rays"), count);
             },
             count * sizeof(Hit));
         std::copy_n(m_exchange.results<Hit>().begin(), count, hits.begin() + std::ptrdiff_t(first));
@@ -92,7 +92,7 @@ Result<void> GpuTracer::occluded(std::span<const Ray> rays, std::span<std::uint8
             [&](const Recorder& recorder) {
                 recorder.bindScene(m_scene.impl().set());
                 recorder.push(push);
-                recorder.dispatchOver("trace_occlusion" + m_scene.impl().shaderSuffix(), count);
+                recorder.dispatchOver(m_scene.impl().shader("trace_occlusion"), count);
             },
             count * sizeof(std::uint32_t));
         const auto results = m_exchange.results<std::uint32_t>();
@@ -119,7 +119,7 @@ Result<void> GpuTracer::filteredSurfaces(std::span<const Ray> rays, std::span<co
             [&](const Recorder& recorder) {
                 recorder.bindScene(m_scene.impl().set());
                 recorder.push(push);
-                recorder.dispatchOver("surfaces", count);
+                recorder.dispatchOver(m_scene.impl().shader("surfaces"), count);
             },
             count * sizeof(kernels::GpuSurface));
         const auto results = m_exchange.results<kernels::GpuSurface>();
