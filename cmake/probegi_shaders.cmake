@@ -8,50 +8,63 @@ if(NOT Vulkan_FOUND OR NOT GLSLC)
 endif()
 set(PROBEGI_GLSLC_FLAGS --target-env=vulkan1.2 -std=460core -O -Werror -I${PROJECT_SOURCE_DIR}/src)
 
-# One shader to one list of words, as the inside of a C initialiser. Appends to `words` and `entries` of the caller.
+# One shader to one list of words, as the inside of a C initialiser; further arguments go to glslc. Appends to `words`,
+# `entries` and `outputs` of the caller.
 function(probegi_shader_variant shader name)
     set(output ${CMAKE_CURRENT_BINARY_DIR}/shaders/${name}.inc)
-    list(TRANSFORM ARGN PREPEND -D OUTPUT_VARIABLE definitions)
     add_custom_command(OUTPUT ${output}
-        COMMAND ${GLSLC} ${PROBEGI_GLSLC_FLAGS} ${definitions} -mfmt=num -MD -MF ${output}.d -MT ${output} ${shader} -o ${output}
+        COMMAND ${GLSLC} ${PROBEGI_GLSLC_FLAGS} ${ARGN} -mfmt=num -MD -MF ${output}.d -MT ${output} ${shader} -o ${output}
         DEPENDS ${shader} DEPFILE ${output}.d COMMENT "Compiling shader ${name}" VERBATIM)
     set(words "${words}constexpr std::uint32_t k_${name}[] = {\n#include \"shaders/${name}.inc\"\n};\n" PARENT_SCOPE)
-    set(entries "${entries}        Shader{\"${name}\", k_${name}},\n" PARENT_SCOPE)
+    set(entries "${entries}        Entry{\"${name}\", k_${name}},\n" PARENT_SCOPE)
     set(outputs ${outputs} ${output} PARENT_SCOPE)
 endfunction()
 
-# probegi_shaders(TARGET FOLDER) compiles every FOLDER/NAME.comp (GLSL 4.60, no #version line; quoted includes are looked
-# for beside it and in src/) and adds the definition of shaderCode() (src/vulkan/device/shader_code.h) to the target:
-# shaderCode("NAME"). A shader with a line
-#     // variants: bvh=TRACER_BVH ray_query=TRACER_RAY_QUERY,ANOTHER_MACRO=2
-# is compiled once for each of them, with these macros: shaderCode("NAME_bvh").
-function(probegi_shaders target folder)
-    file(GLOB shaders CONFIGURE_DEPENDS ${folder}/*.comp)
+# probegi_shaders(TARGET BOOK [FOLDER folder] [TRACERS folder/tracer_NAME.glsl...]) compiles shaders (GLSL 4.60, no
+# #version line; quoted includes are looked for beside the shader and in src/) and adds the function BOOK, a ShaderBook
+# (src/vulkan/device/shader_code.h), to the target:
+# - of every FOLDER/SHADER.comp, as "SHADER";
+# - of every shader of src/vulkan/shaders that has the line `// variants: tracers`, once for each of TRACERS, as
+#   "SHADER_NAME". They include "chosen_tracer.glsl", which the build writes: it includes the tracer's file.
+function(probegi_shaders target book)
+    cmake_parse_arguments(ARG "" "FOLDER" "TRACERS" ${ARGN})
     set(words "")
     set(entries "")
     set(outputs "")
-    foreach(shader ${shaders})
-        cmake_path(GET shader STEM stem)
-        # The names of the variants stand in the shader: another line means another build.
+    set(shaders "")
+    if(ARG_FOLDER)
+        file(GLOB shaders CONFIGURE_DEPENDS ${ARG_FOLDER}/*.comp)
+    endif()
+    file(GLOB passes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/vulkan/shaders/*.comp)
+    foreach(shader ${passes})
+        # Whether there are variants stands in the shader: another line means another build.
         set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${shader})
-        file(STRINGS ${shader} variants REGEX "^// variants:" LIMIT_COUNT 1)
-        string(REGEX REPLACE "^// variants:[ ]*" "" variants "${variants}")
-        separate_arguments(variants)
-        if(NOT variants)
-            probegi_shader_variant(${shader} ${stem})
+        file(STRINGS ${shader} traces REGEX "^// variants: tracers$" LIMIT_COUNT 1)
+        if(NOT traces)
+            continue()
         endif()
-        foreach(variant ${variants})
-            if(NOT variant MATCHES "^([a-z0-9_]+)=(.+)$")
-                message(FATAL_ERROR "${shader}: '${variant}' is not a variant; write name=MACRO[,MACRO...]")
+        list(REMOVE_ITEM shaders ${shader})
+        cmake_path(GET shader STEM pass)
+        foreach(tracer ${ARG_TRACERS})
+            cmake_path(GET tracer FILENAME file)
+            cmake_path(GET tracer PARENT_PATH beside)
+            if(NOT file MATCHES "^tracer_([a-z0-9_]+)[.]glsl$")
+                message(FATAL_ERROR "${tracer} is not a tracer; its name must be tracer_NAME.glsl")
             endif()
-            string(REPLACE "," ";" macros "${CMAKE_MATCH_2}")
-            probegi_shader_variant(${shader} ${stem}_${CMAKE_MATCH_1} ${macros})
+            set(name ${CMAKE_MATCH_1})
+            set(chosen ${CMAKE_CURRENT_BINARY_DIR}/shaders/${name})
+            file(CONFIGURE OUTPUT ${chosen}/chosen_tracer.glsl CONTENT "#include \"@file@\"\n" @ONLY)
+            probegi_shader_variant(${shader} ${pass}_${name} -I${chosen} -I${beside})
         endforeach()
     endforeach()
+    foreach(shader ${shaders})
+        cmake_path(GET shader STEM name)
+        probegi_shader_variant(${shader} ${name})
+    endforeach()
     list(LENGTH outputs count)
-    configure_file(${PROJECT_SOURCE_DIR}/cmake/shader_code.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/shader_code.cpp @ONLY)
+    configure_file(${PROJECT_SOURCE_DIR}/cmake/shader_code.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/${book}.cpp @ONLY)
     # Objects of their own, so that shaders do not wait for the layers below the target.
-    add_library(${target}_shaders OBJECT ${CMAKE_CURRENT_BINARY_DIR}/shader_code.cpp ${outputs})
+    add_library(${target}_shaders OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${book}.cpp ${outputs})
     target_include_directories(${target}_shaders PRIVATE ${CMAKE_CURRENT_BINARY_DIR} ${PROJECT_SOURCE_DIR}/src)
     target_link_libraries(${target}_shaders PRIVATE probegi_options)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_shaders>)

@@ -24,7 +24,7 @@
 /// command buffer uses must live until it has finished.
 ///
 /// A program without a device opens one (Device::open) and uses the CPU backend's API on the GPU: makeTracer(),
-/// makeField(), renderPicture(). These submit and wait.
+/// makeMovableTracer(), makeField(), renderPicture(). These submit and wait.
 namespace probegi::vulkan {
 
 /// A Vulkan device of this machine.
@@ -344,6 +344,13 @@ PROBEGI_API Result<void> recordToneMap(VkCommandBuffer commands, const Device& d
 /// scene must be valid and outlive the tracer. Errors: outOfMemory, unsupported.
 PROBEGI_API Result<std::unique_ptr<Tracer>> makeTracer(const Context& context, const Device& device, const Scene& scene,
                                                        const ScenePose& pose, const GpuSceneDesc& desc = {});
+
+/// The same for a scene in which things move: setPose() refits the top level on the GPU, and waits. Errors: those, and
+/// invalidArgument (a node that the scene has not).
+PROBEGI_API Result<std::unique_ptr<MovableTracer>> makeMovableTracer(const Context& context, const Device& device,
+                                                                     const Scene& scene, const ScenePose& pose,
+                                                                     const MovableDesc& movable = {},
+                                                                     TracerKind tracer = TracerKind::automatic);
 
 /// A Field whose passes run on the GPU. Its update() accepts any Tracer: with one of makeTracer() on the same device
 /// everything stays on the GPU, with another the rays are traced and shaded by the CPU and uploaded.

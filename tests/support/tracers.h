@@ -21,6 +21,9 @@ struct TracerMaker {
     /// Shares of rays aimed exactly at edges and at vertices of a closed mesh that may get through.
     double edgeLoss = 0, vertexLoss = 0.003;
     bool tellsInstances = false;  ///< Hit::instance is the number of a placement, or -1 where meshes were merged
+    /// The same with what can move; null: nothing can.
+    Result<std::unique_ptr<MovableTracer>> (*makeMovable)(const Context&, const Scene&, const ScenePose&,
+                                                          const MovableDesc&) = nullptr;
 
     friend std::ostream& operator<<(std::ostream& out, const TracerMaker& maker) { return out << maker.name; }
 };
@@ -29,6 +32,11 @@ struct TracerMaker {
 template <vulkan::TracerKind kind>
 Result<std::unique_ptr<Tracer>> makeVulkanTracer(const Context& context, const Scene& scene, const ScenePose& pose) {
     return vulkan::makeTracer(context, testDevice(), scene, pose, {.tracer = kind});
+}
+template <vulkan::TracerKind kind>
+Result<std::unique_ptr<MovableTracer>> makeMovableVulkanTracer(const Context& context, const Scene& scene,
+                                                               const ScenePose& pose, const MovableDesc& movable) {
+    return vulkan::makeMovableTracer(context, testDevice(), scene, pose, movable, kind);
 }
 #endif
 
@@ -40,14 +48,15 @@ inline Result<std::unique_ptr<Tracer>> makeMovable(const Context& context, const
 
 inline std::span<const TracerMaker> tracerMakers() {
     static const TracerMaker makers[] = {
-        {"embree", makeEmbreeTracer, [] { return true; }, 0, 0.003, true},
+        {"embree", makeEmbreeTracer, [] { return true; }, 0, 0.003, true, makeMovableEmbreeTracer},
         {"embreeMovable", makeMovable, [] { return true; }, 0, 0.003, true},
 #ifdef PROBEGI_TEST_VULKAN
-        {"vulkanBvh", makeVulkanTracer<vulkan::TracerKind::bvh>, [] { return true; }, 0, 0},
+        {"vulkanBvh", makeVulkanTracer<vulkan::TracerKind::bvh>, [] { return true; }, 0, 0, false,
+         makeMovableVulkanTracer<vulkan::TracerKind::bvh>},
         {"vulkanRayQuery", makeVulkanTracer<vulkan::TracerKind::rayQuery>, [] { return testDevice().rayQuery(); },
          // The driver's: Vulkan recommends watertight intersection and does not demand it. Mesa 25.0's software device
          // was measured to lose 7e-5 at edges and 0.6 % at vertices.
-         3e-4, 0.012},
+         3e-4, 0.012, false, makeMovableVulkanTracer<vulkan::TracerKind::rayQuery>},
 #endif
     };
     return makers;

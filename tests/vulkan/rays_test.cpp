@@ -90,7 +90,7 @@ std::vector<Hit> hitsOf(const vulkan::GpuScene& scene, std::span<const Ray> rays
         [&](const vulkan::Recorder& recorder) {
             recorder.bindScene(scene.impl().set());
             recorder.push(push);
-            recorder.dispatchOver("trace_rays" + scene.impl().shaderSuffix(), rays.size());
+            recorder.dispatchOver(scene.impl().shader("trace_rays"), rays.size());
         },
         rays.size() * sizeof(Hit));
     const auto hits = exchange.results<Hit>().first(rays.size());

@@ -10,19 +10,16 @@
 
 KERNELS_BEGIN
 
-// Addresses of the library's own BVH and the roots of its two levels (kernels/trace/bvh_traverse.h).
-struct BvhAddresses {
-    uvec2 nodes;      // BvhNode[]
-    uvec2 triangles;  // BvhTriangle[]
-    uvec2 instances;  // BvhInstance[]
-    uint worldRoot;
-    uint instancesRoot;
+// What the C++ half of a tracer tells its GLSL half: buffers' addresses and numbers that nobody else reads.
+struct TracerBlock {
+    uvec2 addresses[6];
+    uint numbers[4];
 };
 
 // The uniform buffer of a scene. Lights and sky of `scene` are unset: each pass brings its own.
 struct SceneConstants {
     SceneAddresses scene;
-    BvhAddresses bvh;
+    TracerBlock tracer;
 };
 
 // Punctual lights and sky, in a buffer of their own.
@@ -225,7 +222,7 @@ KERNELS_END
 
 #ifdef __cplusplus
 namespace probegi::kernels {
-static_assert(offsetof(SceneConstants, bvh) == 140 && sizeof(SceneConstants) == 172 && sizeof(LightingBlock) == 40);
+static_assert(offsetof(SceneConstants, tracer) == 140 && sizeof(SceneConstants) == 204 && sizeof(LightingBlock) == 40);
 static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(BlendPush) == 104 &&
               sizeof(TracePush) == 76);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 96);

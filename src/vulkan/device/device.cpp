@@ -44,7 +44,7 @@ void Device::Impl::finish(const Features& features, const std::filesystem::path&
                 .get<vk::PhysicalDeviceAccelerationStructurePropertiesKHR>()
                 .minAccelerationStructureScratchOffsetAlignment;
     std::string warning;
-    pipelines.emplace(physical, device, rayQuery, cacheFolder, warning);
+    pipelines.emplace(physical, device, cacheFolder, warning);
     if (!warning.empty()) warn(warning);
 }
 

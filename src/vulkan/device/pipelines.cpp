@@ -9,7 +9,6 @@
 
 #include "core/sentence.h"
 #include "vulkan/device/errors.h"
-#include "vulkan/device/shader_code.h"
 
 namespace probegi::vulkan {
 
@@ -93,11 +92,10 @@ vk::raii::DescriptorSetLayout makeVolumeLayout(const vk::raii::Device& device) {
     return {device, vk::DescriptorSetLayoutCreateInfo({}, bindings)};
 }
 
-vk::raii::DescriptorSetLayout makeSceneLayout(const vk::raii::Device& device, bool rayQuery) {
-    const auto stages = vk::ShaderStageFlagBits::eCompute;
-    std::vector<vk::DescriptorSetLayoutBinding> bindings = {{0, vk::DescriptorType::eUniformBuffer, 1, stages}};
-    if (rayQuery) bindings.push_back({1, vk::DescriptorType::eAccelerationStructureKHR, 1, stages});
-    return {device, vk::DescriptorSetLayoutCreateInfo({}, bindings)};
+vk::raii::DescriptorSetLayout makeSceneLayout(const vk::raii::Device& device) {
+    const vk::DescriptorSetLayoutBinding constants(0, vk::DescriptorType::eUniformBuffer, 1,
+                                                   vk::ShaderStageFlagBits::eCompute);
+    return {device, vk::DescriptorSetLayoutCreateInfo({}, constants)};
 }
 
 vk::raii::PipelineLayout makePipelineLayout(const vk::raii::Device& device, const PassLayout& layout) {
@@ -114,15 +112,15 @@ vk::raii::Sampler makeSampler(const vk::raii::Device& device) {
 
 }  // namespace
 
-PassLayout::PassLayout(const vk::raii::Device& device, bool rayQuery)
+PassLayout::PassLayout(const vk::raii::Device& device)
     : sampler(makeSampler(device)),
       volume(makeVolumeLayout(device)),
-      scene(makeSceneLayout(device, rayQuery)),
+      scene(makeSceneLayout(device)),
       pipeline(makePipelineLayout(device, *this)) {}
 
-PipelineStore::PipelineStore(const vk::raii::PhysicalDevice& physical, const vk::raii::Device& device, bool rayQuery,
+PipelineStore::PipelineStore(const vk::raii::PhysicalDevice& physical, const vk::raii::Device& device,
                              std::filesystem::path folder, std::string& warning)
-    : m_device(device), m_layout(device, rayQuery), m_file(cacheFile(physical, folder)), m_cache(nullptr) {
+    : m_device(device), m_layout(device), m_file(cacheFile(physical, folder)), m_cache(nullptr) {
     std::vector<std::uint8_t> data = readCache(m_file, warning);
     if (!data.empty() && !isOf(physical, data)) {
         warning = sentence("the shader cache '", m_file.generic_string(),
@@ -133,13 +131,13 @@ PipelineStore::PipelineStore(const vk::raii::PhysicalDevice& physical, const vk:
     m_cache = vk::raii::PipelineCache(device, vk::PipelineCacheCreateInfo({}, data.size(), data.data()));
 }
 
-vk::Pipeline PipelineStore::get(const std::string& shader, std::span<const std::uint32_t> constants) {
-    std::string key = shader;
+vk::Pipeline PipelineStore::get(const Shader& shader, std::span<const std::uint32_t> constants) {
+    std::string key = shader.name;
     for (const std::uint32_t constant : constants) key += sentence("/", constant);
     if (const auto found = m_pipelines.find(key); found != m_pipelines.end()) return *found->second;
 
-    const std::span<const std::uint32_t> code = shaderCode(shader);
-    if (code.empty()) throw Failure(ErrorCode::unsupported, sentence("there is no shader '", shader, "'"));
+    const std::span<const std::uint32_t> code = shader.book(shader.name);
+    if (code.empty()) throw Failure(ErrorCode::unsupported, sentence("there is no shader '", shader.name, "'"));
     const vk::raii::ShaderModule module(m_device, vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
     std::vector<vk::SpecializationMapEntry> entries;
     for (std::uint32_t i = 0; i < constants.size(); ++i) entries.emplace_back(i, 4 * i, sizeof(std::uint32_t));

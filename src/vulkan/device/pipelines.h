@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "vulkan/device/shader_code.h"
 #include "vulkan/device/vk.h"
 
 namespace probegi::vulkan {
@@ -12,7 +13,7 @@ namespace probegi::vulkan {
 /// The layout shared by all passes. Set 0: a volume. Set 1: a scene. Push constants: the pass's struct in
 /// kernels/abi/gpu_passes.h, at most the 128 bytes that every device supports.
 struct PassLayout {
-    PassLayout(const vk::raii::Device& device, bool rayQuery);
+    explicit PassLayout(const vk::raii::Device& device);
 
     static constexpr std::uint32_t kPushBytes = 128;
     vk::raii::Sampler sampler;  ///< of the atlases: linear, clamped
@@ -25,12 +26,12 @@ struct PassLayout {
 class PipelineStore {
 public:
     /// `folder` may be empty. A damaged file is ignored, as is one of another driver, with a `warning`.
-    PipelineStore(const vk::raii::PhysicalDevice& physical, const vk::raii::Device& device, bool rayQuery,
+    PipelineStore(const vk::raii::PhysicalDevice& physical, const vk::raii::Device& device,
                   std::filesystem::path folder, std::string& warning);
 
     const PassLayout& layout() const noexcept { return m_layout; }
     /// `constants`: specialisation constants 0, 1, ... Throws.
-    vk::Pipeline get(const std::string& shader, std::span<const std::uint32_t> constants = {});
+    vk::Pipeline get(const Shader& shader, std::span<const std::uint32_t> constants = {});
     /// Writes the file if it has changed, atomically. Throws Failure.
     void save();
 

@@ -25,7 +25,7 @@ public:
     }
 
     /// Runs a pass over a grid of work groups.
-    void dispatch(const std::string& shader, std::uint32_t x, std::uint32_t y = 1, std::uint32_t z = 1,
+    void dispatch(const Shader& shader, std::uint32_t x, std::uint32_t y = 1, std::uint32_t z = 1,
                   std::span<const std::uint32_t> constants = {}) const {
         m_commands.bindPipeline(vk::PipelineBindPoint::eCompute, m_device.pipelines->get(shader, constants),
                                 dispatcher());
@@ -33,19 +33,19 @@ public:
     }
     /// Runs a pass over `count` threads. More groups than one axis allows are spread over
     /// two: shaders get their index from globalIndex() of shaders/common.glsl.
-    void dispatchOver(const std::string& shader, std::uint64_t count) const {
+    void dispatchOver(const Shader& shader, std::uint64_t count) const {
         const kernels::uvec3 groups = kernels::threadGroups(std::uint32_t(count));
         if (count) dispatch(shader, groups.x, groups.y);
     }
     /// Runs a pass over `blocks` times `columns` groups: x and z hold a group's block, y its column. Devices may limit
     /// an axis to 65,535 groups, and there may be more blocks of probes.
-    void dispatchOver(const std::string& shader, std::uint32_t blocks, std::uint32_t columns,
+    void dispatchOver(const Shader& shader, std::uint32_t blocks, std::uint32_t columns,
                       std::span<const std::uint32_t> constants = {}) const {
         const kernels::uvec3 groups = kernels::blockGroups(blocks, columns);
         dispatch(shader, groups.x, groups.y, groups.z, constants);
     }
     /// Runs a pass over as many groups as three words in GPU memory say, `offset` bytes into the buffer.
-    void dispatchIndirect(const std::string& shader, const Buffer& buffer, std::size_t offset,
+    void dispatchIndirect(const Shader& shader, const Buffer& buffer, std::size_t offset,
                           std::span<const std::uint32_t> constants = {}) const {
         m_commands.bindPipeline(vk::PipelineBindPoint::eCompute, m_device.pipelines->get(shader, constants),
                                 dispatcher());

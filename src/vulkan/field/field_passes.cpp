@@ -242,7 +242,6 @@ void FieldPasses::recordWeights(const Recorder& recorder, const UpdateFrame& fra
 
 void FieldPasses::recordTrace(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
                               const GpuLighting& lighting, const RayAddresses& data, Profiler* profiler) {
-    const std::string tracer = scene.impl().shaderSuffix();
     recorder.bindScene(scene.impl().set());
     recorder.push(kernels::TracePush{.tasks = packAddress(m_tasks.address()),
                                      .directions = packAddress(m_directions.address()),
@@ -258,16 +257,19 @@ void FieldPasses::recordTrace(const Recorder& recorder, const UpdateFrame& frame
                                      .emitterSeed = frame.raySeed});
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "trace");
-        recorder.dispatchIndirect("trace_probes" + tracer, m_tasks, offsetof(kernels::GpuTaskCounts, perRay));
+        recorder.dispatchIndirect(scene.impl().shader("trace_probes"), m_tasks,
+                                  offsetof(kernels::GpuTaskCounts, perRay));
     }
     recorder.computeToCompute();
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "shade");
-        recorder.dispatchIndirect("shade_probes" + tracer, m_tasks, offsetof(kernels::GpuTaskCounts, perRay));
+        recorder.dispatchIndirect(scene.impl().shader("shade_probes"), m_tasks,
+                                  offsetof(kernels::GpuTaskCounts, perRay));
     }
     if (data.looks > 0) {
         const PassScope scope(recorder, m_device.impl(), profiler, "emitters");
-        recorder.dispatchIndirect("look_at_emitters" + tracer, m_tasks, offsetof(kernels::GpuTaskCounts, perLook));
+        recorder.dispatchIndirect(scene.impl().shader("look_at_emitters"), m_tasks,
+                                  offsetof(kernels::GpuTaskCounts, perLook));
     }
     recorder.computeToCompute();
 }
@@ -366,7 +368,7 @@ void FieldPasses::recordUpdate(const Recorder& recorder, const UpdateFrame& fram
     const int looks = scene.impl().emitters.empty() ? 0 : emitterLooks(frame.desc);
     makeRayBuffers(looks);
     for (const char* shader : {"trace_probes", "shade_probes", "look_at_emitters"})
-        m_device.impl().pipelines->get(shader + scene.impl().shaderSuffix());
+        m_device.impl().pipelines->get(scene.impl().shader(shader));
     const RayAddresses data{m_rayData.address(), m_fixedRays.address(), m_emitterLights.address(), looks};
     beginUpdate(recorder, frame, looks, profiler);
     recordTrace(recorder, frame, scene, lighting, data, profiler);

@@ -70,14 +70,13 @@ public:
 private:
     void record(const Recorder& recorder, std::size_t pixels) {
         const Device::Impl& device = m_device.impl();
-        const std::string tracer = m_tracer.scene().impl().shaderSuffix();
         m_profiler->recordReset(recorder.commands());
         if (m_volume) m_volume->recordSettings(recorder, m_field->control().settings());
         recorder.bindScene(m_tracer.scene().impl().set());
         recorder.push(m_push);
         {
             const PassScope scope(recorder, device, &*m_profiler, "primary");
-            recorder.dispatchOver("picture_primary" + tracer, m_push.sampleCount);
+            recorder.dispatchOver(m_tracer.scene().impl().shader("picture_primary"), m_push.sampleCount);
         }
         recorder.computeToCompute();
         recordSampleShading(recorder, m_device, m_tracer.scene(), m_volume, m_push, &*m_profiler);

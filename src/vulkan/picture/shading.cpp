@@ -28,7 +28,7 @@ void recordSampleShading(const Recorder& recorder, const Device& device, const G
     recorder.push(push);
     {
         const PassScope scope(recorder, device.impl(), profiler, "direct");
-        recorder.dispatchOver("picture_direct" + scene.impl().shaderSuffix(), push.sampleCount);
+        recorder.dispatchOver(scene.impl().shader("picture_direct"), push.sampleCount);
     }
     recorder.computeToCompute();
     if (!volume) return;

@@ -2,31 +2,15 @@
 
 #include "bvh/binary_tree.h"
 #include "bvh/wide_bvh.h"
-#include "core/sentence.h"
 #include "geometry/lighting.h"
 #include "vulkan/device/errors.h"
 #include "vulkan/scene/gpu_scene_impl.h"
 
 namespace probegi::vulkan {
 
-namespace {
-
-TracerKind chooseTracer(const Device& device, TracerKind wanted) {
-    if (wanted == TracerKind::rayQuery && !device.rayQuery())
-        throw Failure(ErrorCode::unsupported, "ray query was requested, but the device '" + device.info().name +
-                                                  "' does not have it or it is not enabled; use the BVH tracer");
-    if (wanted != TracerKind::automatic) return wanted;
-    // A software device's ray query is slower: with Mesa 25.0 it took eight times as long as the BVH.
-    const bool inHardware = device.info().type != kSoftwareDevice;
-    return device.rayQuery() && inHardware ? TracerKind::rayQuery : TracerKind::bvh;
-}
-
-}  // namespace
-
 GpuScene::Impl::Impl(const Context& context, const Device& d, const Scene& scene, const ScenePose& pose,
-                     const GpuSceneDesc& desc)
-    : device(d) {
-    const TracerKind kind = chooseTracer(device, desc.tracer);
+                     const GpuSceneDesc& desc, const SceneTracerType& type)
+    : device(d), tracerType(type) {
     orThrow(checkNodes(scene, desc.movableNodes, "movableNodes"));
     const SceneGeometry geometry =
         SceneGeometry::gather(scene, pose, movableInstances(scene, desc.movable, desc.movableNodes));
@@ -39,8 +23,7 @@ GpuScene::Impl::Impl(const Context& context, const Device& d, const Scene& scene
     emitters = emitterGeometry.placed();
     data = packScene(geometry, emitters, scene, MipMaps(context, scene));
     upload();
-    tracer = kind == TracerKind::rayQuery ? makeRayQuerySceneTracer(device, geometry, data, vertices.address())
-                                          : makeBvhSceneTracer(context, device, geometry, staging);
+    tracer = type.make({context, device, geometry, data, vertices.address(), staging});
     staging.fill(device.impl());
     constantsBuffer = Buffer(device.impl(), "scene constants", sizeof(kernels::SceneConstants),
                              vk::BufferUsageFlagBits::eUniformBuffer | vk::BufferUsageFlagBits::eTransferDst);
@@ -66,20 +49,13 @@ void GpuScene::Impl::upload() {
 
 void GpuScene::Impl::writeSet() {
     const Device::Impl& on = device.impl();
-    std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBuffer, 1}};
-    if (on.rayQuery) sizes.push_back({vk::DescriptorType::eAccelerationStructureKHR, 1});
+    const vk::DescriptorPoolSize size(vk::DescriptorType::eUniformBuffer, 1);
     pool = vk::raii::DescriptorPool(
-        on.device, vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes));
+        on.device, vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size));
     sets = vk::raii::DescriptorSets(on.device, vk::DescriptorSetAllocateInfo(*pool, *on.pipelines->layout().scene));
     const vk::DescriptorBufferInfo info(constantsBuffer.handle(), 0, VK_WHOLE_SIZE);
     on.device.updateDescriptorSets(
         vk::WriteDescriptorSet(set(), 0, 0, 1, vk::DescriptorType::eUniformBuffer, nullptr, &info), {});
-    const vk::AccelerationStructureKHR top = tracer->topLevel();
-    if (!top) return;
-    const vk::WriteDescriptorSetAccelerationStructureKHR structures(top);
-    vk::WriteDescriptorSet write(set(), 1, 0, 1, vk::DescriptorType::eAccelerationStructureKHR);
-    write.pNext = &structures;
-    on.device.updateDescriptorSets(write, {});
 }
 
 Bounds GpuScene::Impl::placedBounds() const {
@@ -105,7 +81,7 @@ kernels::SceneConstants GpuScene::Impl::constants() const {
     c.scene.emitters = packAddress(emitterBuffer.address());
     c.scene.emitterCount = int(emitters.triangles.size());
     c.scene.inverseEmitterPower = emitters.inversePower;
-    c.bvh = tracer->addresses();
+    c.tracer = tracer->block();
     return c;
 }
 
@@ -123,8 +99,15 @@ GpuScene::~GpuScene() = default;
 
 Result<GpuScene> GpuScene::create(const Context& context, const Device& device, const Scene& scene,
                                   const ScenePose& pose, const GpuSceneDesc& desc) {
+    return guarded("uploading the scene", [&] {
+        return orThrow(Impl::create(context, device, scene, pose, desc, sceneTracerType(device, desc.tracer)));
+    });
+}
+
+Result<GpuScene> GpuScene::Impl::create(const Context& context, const Device& device, const Scene& scene,
+                                        const ScenePose& pose, const GpuSceneDesc& desc, const SceneTracerType& type) {
     return guarded("uploading the scene",
-                   [&] { return GpuScene(std::make_unique<Impl>(context, device, scene, pose, desc)); });
+                   [&] { return GpuScene(std::make_unique<Impl>(context, device, scene, pose, desc, type)); });
 }
 
 Result<void> GpuScene::recordUpload(VkCommandBuffer commands) {
@@ -158,14 +141,14 @@ Result<void> GpuScene::recordPose(VkCommandBuffer commands, const ScenePose& pos
         recorder.orderAll();
         recorder.write(m_impl->instances, std::as_bytes(std::span(instances)));
         recorder.write(m_impl->emitterBuffer, std::as_bytes(std::span(lamps)));
-        recorder.write(m_impl->constantsBuffer, bytesOf(m_impl->constants()));
         m_impl->tracer->recordPlacements(recorder, m_impl->placements);
+        recorder.write(m_impl->constantsBuffer, bytesOf(m_impl->constants()));
         recorder.orderAll();
     });
 }
 
 TracerKind GpuScene::tracer() const noexcept {
-    return m_impl->tracer->kind();
+    return m_impl->tracerType.kind;
 }
 Bounds GpuScene::bounds() const noexcept {
     return m_impl->bounds;

@@ -6,11 +6,16 @@
 namespace probegi::vulkan {
 
 struct GpuScene::Impl {
+    /// Throws.
     Impl(const Context& context, const Device& device, const Scene& scene, const ScenePose& pose,
-         const GpuSceneDesc& desc);
+         const GpuSceneDesc& desc, const SceneTracerType& type);
+    /// GpuScene::create() with any tracer, whatever desc asks for.
+    static Result<GpuScene> create(const Context& context, const Device& device, const Scene& scene,
+                                   const ScenePose& pose, const GpuSceneDesc& desc, const SceneTracerType& type);
 
     vk::DescriptorSet set() const noexcept { return *sets.front(); }
-    std::string shaderSuffix() const { return tracer->shaderSuffix(); }
+    /// A pass that has `// variants: tracers`.
+    Shader shader(const char* pass) const { return tracerType.shader(pass); }
     kernels::SceneConstants constants() const;
     Bounds placedBounds() const;  // for the current placements
     bool placeEmitters();         // for the current placements; returns whether there are any
@@ -25,6 +30,7 @@ struct GpuScene::Impl {
     EmitterSet emitters;  // for the current placements
     Buffer vertices, triangles, uv1, tangents, meshes, instances, materials, textures, texels, srgbTable, emitterBuffer;
     Buffer constantsBuffer;
+    SceneTracerType tracerType;
     std::unique_ptr<SceneTracer> tracer;
     vk::raii::DescriptorPool pool{nullptr};
     vk::raii::DescriptorSets sets{nullptr};

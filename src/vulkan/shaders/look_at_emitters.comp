@@ -1,6 +1,6 @@
 // What the probes' looks at emitters bring home, the steps of src/field/probe_emitters.cpp: choose a point, trace
 // towards it, see what it sends. Neighbouring threads take the same look of neighbouring probes.
-// variants: bvh=TRACER_BVH ray_query=TRACER_RAY_QUERY
+// variants: tracers
 #include "emitter_lights.glsl"
 #include "rays.glsl"
 #include "scene_set.glsl"

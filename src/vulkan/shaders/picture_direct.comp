@@ -1,5 +1,5 @@
 // Punctual lights on the samples of a picture, with shadow rays, the whole material and not only its Lambert part.
-// variants: bvh=TRACER_BVH ray_query=TRACER_RAY_QUERY
+// variants: tracers
 #include "direct_light.glsl"
 #include "picture.glsl"
 

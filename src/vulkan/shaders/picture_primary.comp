@@ -1,5 +1,5 @@
 // Primary rays of a band of a picture: what each sample shows, its own emission, or the sky.
-// variants: bvh=TRACER_BVH ray_query=TRACER_RAY_QUERY
+// variants: tracers
 #include "picture.glsl"
 #include "scene_set.glsl"
 

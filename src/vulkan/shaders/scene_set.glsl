@@ -1,4 +1,4 @@
-// Set 1 of the library's own passes: a scene, and the tracer that the variant of the shader names.
+// Set 1 of the library's own passes: a scene, and the tracer that the variant of the shader is for.
 #ifndef PROBEGI_SCENE_SET_GLSL
 #define PROBEGI_SCENE_SET_GLSL
 
@@ -32,10 +32,8 @@ void useSceneOnly() {
     litScene = sceneConstants.scene;
 }
 
-#if defined(TRACER_RAY_QUERY)
-#include "tracer_ray_query.glsl"
-#elif defined(TRACER_BVH)
-#include "tracer_bvh.glsl"
-#endif
+#include "tracer.glsl"
+
+#include "chosen_tracer.glsl"
 
 #endif

@@ -1,16 +1,16 @@
 // What the rays of all probes bring home: sky, emission, punctual lights with shadow rays, and the light of earlier
 // bounces from last frame's field (DDGI paper, section 2.3).
-// variants: bvh=TRACER_BVH ray_query=TRACER_RAY_QUERY
+// variants: tracers
 #include "direct_light.glsl"
 #include "ray_data.glsl"
 #include "rays.glsl"
 #include "tasks.glsl"
 #include "volume.glsl"
 
-#include "kernels/shade/bounce.h"
-#include "kernels/screen/colour.h"
-#include "kernels/light/emitter_sampling.h"
 #include "kernels/blend/probe_blend.h"
+#include "kernels/light/emitter_sampling.h"
+#include "kernels/screen/colour.h"
+#include "kernels/shade/bounce.h"
 
 layout(push_constant, scalar) uniform Push {
     TracePush push;

@@ -1,4 +1,5 @@
 // Surfaces at given hits; entries of missed rays are left as they are.
+// variants: tracers
 #include "rays.glsl"
 #include "scene_set.glsl"
 

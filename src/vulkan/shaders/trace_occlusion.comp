@@ -1,5 +1,5 @@
 // Whether given rays are blocked: 1 or 0.
-// variants: bvh=TRACER_BVH ray_query=TRACER_RAY_QUERY
+// variants: tracers
 #include "rays.glsl"
 #include "scene_set.glsl"
 

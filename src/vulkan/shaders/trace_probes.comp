@@ -1,6 +1,6 @@
 // Closest hits of the rays of all probes. Neighbouring threads take the same ray of neighbouring probes: parallel rays
 // from nearby origins meet the same nodes. Hits lie in the order of threads, [ray][task], for shade_probes.comp alone.
-// variants: bvh=TRACER_BVH ray_query=TRACER_RAY_QUERY
+// variants: tracers
 #include "rays.glsl"
 #include "scene_set.glsl"
 #include "tasks.glsl"

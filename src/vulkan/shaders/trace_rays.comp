@@ -1,5 +1,5 @@
 // Closest hits of given rays.
-// variants: bvh=TRACER_BVH ray_query=TRACER_RAY_QUERY
+// variants: tracers
 #include "rays.glsl"
 #include "scene_set.glsl"
 

@@ -1,8 +1,9 @@
-// Triangles by the library's own BVH: any Vulkan device.
+// Triangles by the library's own BVH: any Vulkan device. Its block (BvhSceneTracer::block) has the addresses of nodes,
+// triangles and instances, and the roots of the world and of the instances.
 #ifndef PROBEGI_TRACER_BVH_GLSL
 #define PROBEGI_TRACER_BVH_GLSL
 
-#include "tracer.glsl"
+#include "triangles.glsl"
 
 #include "kernels/trace/bvh_scene.h"
 
@@ -17,13 +18,13 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Bv
 };
 
 BvhNode bvhNode(uint index) {
-    return BvhNodes(sceneConstants.bvh.nodes).at[index];
+    return BvhNodes(sceneConstants.tracer.addresses[0]).at[index];
 }
 BvhTriangle bvhTriangle(uint index) {
-    return BvhTriangles(sceneConstants.bvh.triangles).at[index];
+    return BvhTriangles(sceneConstants.tracer.addresses[1]).at[index];
 }
 BvhInstance bvhInstance(uint index) {
-    return BvhInstances(sceneConstants.bvh.instances).at[index];
+    return BvhInstances(sceneConstants.tracer.addresses[2]).at[index];
 }
 bool bvhAlphaPasses(int instance, int primitive, vec2 barycentric) {
     return alphaPasses(instance, kGeometryMasked, primitive, barycentric);
@@ -33,13 +34,13 @@ bool bvhAlphaPasses(int instance, int primitive, vec2 barycentric) {
 
 Hit closestHit(Ray ray) {
     const BvhHit hit = bvhClosestHit(ray.origin, max(ray.near, 0.0), ray.direction, ray.far,
-                                     sceneConstants.bvh.worldRoot, sceneConstants.bvh.instancesRoot);
+                                     sceneConstants.tracer.numbers[0], sceneConstants.tracer.numbers[1]);
     return Hit(hit.distance, hit.primitive, hit.geometry, hit.instance, hit.barycentric);
 }
 
 bool occluded(Ray ray) {
-    return bvhOccluded(ray.origin, max(ray.near, 0.0), ray.direction, ray.far, sceneConstants.bvh.worldRoot,
-                       sceneConstants.bvh.instancesRoot);
+    return bvhOccluded(ray.origin, max(ray.near, 0.0), ray.direction, ray.far, sceneConstants.tracer.numbers[0],
+                       sceneConstants.tracer.numbers[1]);
 }
 
 #endif

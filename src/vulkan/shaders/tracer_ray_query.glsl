@@ -1,14 +1,14 @@
-// Triangles by VK_KHR_ray_query.
+// Triangles by VK_KHR_ray_query. Its block has the address of the top level (RayQuerySceneTracer::block).
 #ifndef PROBEGI_TRACER_RAY_QUERY_GLSL
 #define PROBEGI_TRACER_RAY_QUERY_GLSL
 
 #extension GL_EXT_ray_query : require
 
-#include "tracer.glsl"
+#include "triangles.glsl"
 
 #include "kernels/trace/bvh_node.h"
 
-layout(set = 1, binding = 1) uniform accelerationStructureEXT sceneStructure;
+#define RAY_QUERY_SCENE accelerationStructureEXT(sceneConstants.tracer.addresses[0])
 
 // The placement of an intersection; -1: the world (src/vulkan/tracers/ray_query_scene_tracer.cpp).
 #define RAY_QUERY_INSTANCE(query, committed) (rayQueryGetIntersectionInstanceCustomIndexEXT(query, committed) - 1)
@@ -27,7 +27,7 @@ Hit closestHit(Ray ray) {
     const float near = max(ray.near, 0.0);
     if (!bvhRayIsValid(ray.origin, near, ray.direction, ray.far)) return hit;
     rayQueryEXT query;
-    rayQueryInitializeEXT(query, sceneStructure, gl_RayFlagsNoneEXT, 0xffu, ray.origin, near, ray.direction, ray.far);
+    rayQueryInitializeEXT(query, RAY_QUERY_SCENE, gl_RayFlagsNoneEXT, 0xffu, ray.origin, near, ray.direction, ray.far);
     RAY_QUERY_RUN(query)
     if (rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionTriangleEXT) return hit;
     hit.distance = rayQueryGetIntersectionTEXT(query, true);
@@ -42,7 +42,7 @@ bool occluded(Ray ray) {
     const float near = max(ray.near, 0.0);
     if (!bvhRayIsValid(ray.origin, near, ray.direction, ray.far)) return false;
     rayQueryEXT query;
-    rayQueryInitializeEXT(query, sceneStructure, gl_RayFlagsTerminateOnFirstHitEXT, 0xffu, ray.origin, near,
+    rayQueryInitializeEXT(query, RAY_QUERY_SCENE, gl_RayFlagsTerminateOnFirstHitEXT, 0xffu, ray.origin, near,
                           ray.direction, ray.far);
     RAY_QUERY_RUN(query)
     return rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT;

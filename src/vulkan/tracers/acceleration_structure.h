@@ -18,7 +18,6 @@ public:
     /// After the build has finished; there can be no update afterwards.
     void releaseScratch() noexcept { m_scratch = Buffer(); }
 
-    vk::AccelerationStructureKHR handle() const noexcept { return *m_handle; }
     VkDeviceAddress address() const noexcept { return m_address; }
     std::size_t bytes() const noexcept { return m_storage.bytes() + m_scratch.bytes(); }
 

@@ -16,10 +16,13 @@ TriangleSoup soupOf(const SurfaceMesh& mesh) {
             .triangleCount = mesh.triangles.size()};
 }
 
-/// The top level stands first in the array of nodes, so that a refit overwrites it in place.
+/// The library's own BVH, built on the context's threads. The top level stands first in the array of nodes, so that a
+/// refit overwrites it in place.
 class BvhSceneTracer final : public SceneTracer {
 public:
-    BvhSceneTracer(const Context& context, const Device& device, const SceneGeometry& geometry, Staging& staging) {
+    explicit BvhSceneTracer(const TracedScene& scene) {
+        const Context& context = scene.context;
+        const SceneGeometry& geometry = scene.geometry;
         std::vector<TriangleBvh> groups;
         for (const SurfaceGroup& group : geometry.groups)
             groups.push_back(orThrow(buildTriangleBvh(context, soupOf(group.opaque), soupOf(group.masked))));
@@ -30,13 +33,16 @@ public:
             orThrow(buildTriangleBvh(context, soupOf(geometry.world.opaque), soupOf(geometry.world.masked))));
         for (const TriangleBvh& group : groups) m_groupRoots.push_back(m_arrays.append(group));
         m_instances = instancesOf(geometry.placements);
-        m_nodeBuffer = staging.add(device.impl(), "BVH nodes", m_arrays.nodes);
-        m_triangleBuffer = staging.add(device.impl(), "BVH triangles", m_arrays.triangles);
-        m_instanceBuffer = staging.add(device.impl(), "BVH instances", m_instances);
+        m_nodeBuffer = scene.staging.add(scene.device.impl(), "BVH nodes", m_arrays.nodes);
+        m_triangleBuffer = scene.staging.add(scene.device.impl(), "BVH triangles", m_arrays.triangles);
+        m_instanceBuffer = scene.staging.add(scene.device.impl(), "BVH instances", m_instances);
     }
 
-    TracerKind kind() const noexcept override { return TracerKind::bvh; }
-    const char* shaderSuffix() const noexcept override { return "_bvh"; }
+    kernels::TracerBlock block() const noexcept override {
+        return {{packAddress(m_nodeBuffer.address()), packAddress(m_triangleBuffer.address()),
+                 packAddress(m_instanceBuffer.address())},
+                {m_worldRoot, m_instancesRoot}};
+    }
     void recordBuild(const Recorder&) override {}
 
     void recordPlacements(const Recorder& recorder, const std::vector<Placement>& placements) override {
@@ -52,10 +58,6 @@ public:
     }
     std::size_t bytes() const noexcept override {
         return m_nodeBuffer.bytes() + m_triangleBuffer.bytes() + m_instanceBuffer.bytes();
-    }
-    kernels::BvhAddresses addresses() const noexcept override {
-        return {packAddress(m_nodeBuffer.address()), packAddress(m_triangleBuffer.address()),
-                packAddress(m_instanceBuffer.address()), m_worldRoot, m_instancesRoot};
     }
 
 private:
@@ -89,13 +91,12 @@ private:
 
 }  // namespace
 
-std::unique_ptr<SceneTracer> makeBvhSceneTracer(const Context& context, const Device& device,
-                                                const SceneGeometry& geometry, Staging& staging) {
+std::unique_ptr<SceneTracer> makeBvhSceneTracer(const TracedScene& scene) {
     if (!treesFollowAHeuristic())
-        device.impl().warn(
+        scene.device.impl().warn(
             "this ProbeGI was built without Embree: the trees of the BVH tracer are plain halves, in which "
             "rays take longer; use ray query, or build with PROBEGI_EMBREE=ON");
-    return std::make_unique<BvhSceneTracer>(context, device, geometry, staging);
+    return std::make_unique<BvhSceneTracer>(scene);
 }
 
 }  // namespace probegi::vulkan

@@ -10,17 +10,11 @@ namespace probegi::vulkan {
 
 namespace {
 
-static_assert(sizeof(Ray) == 32 && offsetof(Ray, direction) == 16, "shaders/types.glsl");
-static_assert(sizeof(Hit) == 24 && offsetof(Hit, barycentric) == 16, "shaders/types.glsl");
-
 constexpr std::size_t kRaysPerPiece = std::size_t(1) << 20;
 
-GpuScene uploaded(const Context& context, const Device& device, const Scene& scene, const ScenePose& pose,
-                  const GpuSceneDesc& desc) {
-    GpuScene result = orThrow(GpuScene::create(context, device, scene, pose, desc));
-    submitAndWait(device, [&](const Recorder& recorder) { orThrow(result.recordUpload(recorder.commands())); });
-    result.releaseStaging();
-    return result;
+std::unique_ptr<GpuTracer> uploaded(const Context& context, const Device& device, const Scene& scene,
+                                    const ScenePose& pose, const GpuSceneDesc& desc) {
+    return std::make_unique<GpuTracer>(device, orThrow(GpuScene::create(context, device, scene, pose, desc)));
 }
 
 Surface surfaceOf(const kernels::GpuSurface& s) {
@@ -49,9 +43,11 @@ Result<void> inPieces(std::size_t count, const Piece& piece) {
 
 }  // namespace
 
-GpuTracer::GpuTracer(const Context& context, const Device& device, const Scene& scene, const ScenePose& pose,
-                     const GpuSceneDesc& desc)
-    : m_device(device), m_scene(uploaded(context, device, scene, pose, desc)), m_exchange(device) {}
+GpuTracer::GpuTracer(const Device& device, GpuScene scene)
+    : m_device(device), m_scene(std::move(scene)), m_exchange(device) {
+    submitAndWait(device, [&](const Recorder& recorder) { orThrow(m_scene.recordUpload(recorder.commands())); });
+    m_scene.releaseStaging();
+}
 
 const EmitterSet* GpuTracer::emitters() const {
     return &m_scene.impl().emitters;
@@ -71,7 +67,7 @@ Result<void> GpuTracer::closestHits(std::span<const Ray> rays, std::span<Hit> hi
             [&](const Recorder& recorder) {
                 recorder.bindScene(m_scene.impl().set());
                 recorder.push(push);
-                recorder.dispatchOver("trace_rays" + m_scene.impl().shaderSuffix(), count);
+                recorder.dispatchOver(m_scene.impl().shader("trace_rays"), count);
             },
             count * sizeof(Hit));
         std::copy_n(m_exchange.results<Hit>().begin(), count, hits.begin() + std::ptrdiff_t(first));
@@ -92,7 +88,7 @@ Result<void> GpuTracer::occluded(std::span<const Ray> rays, std::span<std::uint8
             [&](const Recorder& recorder) {
                 recorder.bindScene(m_scene.impl().set());
                 recorder.push(push);
-                recorder.dispatchOver("trace_occlusion" + m_scene.impl().shaderSuffix(), count);
+                recorder.dispatchOver(m_scene.impl().shader("trace_occlusion"), count);
             },
             count * sizeof(std::uint32_t));
         const auto results = m_exchange.results<std::uint32_t>();
@@ -119,7 +115,7 @@ Result<void> GpuTracer::filteredSurfaces(std::span<const Ray> rays, std::span<co
             [&](const Recorder& recorder) {
                 recorder.bindScene(m_scene.impl().set());
                 recorder.push(push);
-                recorder.dispatchOver("surfaces", count);
+                recorder.dispatchOver(m_scene.impl().shader("surfaces"), count);
             },
             count * sizeof(kernels::GpuSurface));
         const auto results = m_exchange.results<kernels::GpuSurface>();
@@ -128,11 +124,26 @@ Result<void> GpuTracer::filteredSurfaces(std::span<const Ray> rays, std::span<co
     });
 }
 
+Result<void> GpuTracer::setPose(const ScenePose& pose) {
+    const std::lock_guard lock(m_mutex);
+    return guarded("moving instances", [&] {
+        submitAndWait(m_device,
+                      [&](const Recorder& recorder) { orThrow(m_scene.recordPose(recorder.commands(), pose)); });
+    });
+}
+
 Result<std::unique_ptr<Tracer>> makeTracer(const Context& context, const Device& device, const Scene& scene,
                                            const ScenePose& pose, const GpuSceneDesc& desc) {
-    return guarded("uploading the scene", [&] {
-        return std::unique_ptr<Tracer>(std::make_unique<GpuTracer>(context, device, scene, pose, desc));
-    });
+    return guarded("uploading the scene",
+                   [&] { return std::unique_ptr<Tracer>(uploaded(context, device, scene, pose, desc)); });
+}
+
+Result<std::unique_ptr<MovableTracer>> makeMovableTracer(const Context& context, const Device& device,
+                                                         const Scene& scene, const ScenePose& pose,
+                                                         const MovableDesc& movable, TracerKind tracer) {
+    const GpuSceneDesc desc{.tracer = tracer, .movable = movable.animated, .movableNodes = movable.nodes};
+    return guarded("uploading the scene",
+                   [&] { return std::unique_ptr<MovableTracer>(uploaded(context, device, scene, pose, desc)); });
 }
 
 }  // namespace probegi::vulkan

@@ -7,18 +7,19 @@
 
 namespace probegi::vulkan {
 
-/// A scene in GPU memory as a Tracer. Batches are cut into pieces, so that memory for them stays bounded.
-class GpuTracer final : public Tracer {
+/// A scene in GPU memory as a Tracer; what moves is what GpuSceneDesc said. Batches are cut into pieces, so that memory
+/// for them stays bounded.
+class GpuTracer final : public MovableTracer {
 public:
-    /// Uploads and waits. Throws.
-    GpuTracer(const Context& context, const Device& device, const Scene& scene, const ScenePose& pose,
-              const GpuSceneDesc& desc);
+    /// Uploads the scene and waits. Throws.
+    GpuTracer(const Device& device, GpuScene scene);
 
     Result<void> closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override;
     Result<void> occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override;
     Result<void> surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const override;
     Result<void> filteredSurfaces(std::span<const Ray> rays, std::span<const Hit> hits, float spread,
                                   std::span<Surface> out) const override;
+    Result<void> setPose(const ScenePose& pose) override;
     Bounds bounds() const override { return m_scene.bounds(); }
     const EmitterSet* emitters() const override;
 

@@ -19,26 +19,23 @@ VkTransformMatrixKHR rowsOf(const glm::mat4& m) {
     return rows;
 }
 
-/// A bottom level for the world and for each group, in the order of SceneData::meshes, each with its opaque and its
-/// masked mesh as geometries 0 and 1; a top level with the world and the placements. Custom indices: 0 for the world,
-/// placement + 1.
+/// VK_KHR_acceleration_structure over the scene's vertices. A bottom level for the world and for each group, in the
+/// order of SceneData::meshes, each with its opaque and its masked mesh as geometries 0 and 1; a top level with the
+/// world and the placements. Custom indices: 0 for the world, placement + 1.
 class RayQuerySceneTracer final : public SceneTracer {
 public:
-    RayQuerySceneTracer(const Device& device, const SceneGeometry& geometry, const SceneData& data,
-                        VkDeviceAddress vertices)
-        : m_device(device) {
-        packIndices(data);
-        for (std::size_t group = 0; group <= geometry.groups.size(); ++group)
-            m_groups.push_back(makeGroup(data, group, vertices));
-        m_instances = instancesOf(geometry.placements);
-        m_instanceBuffer = Buffer(device.impl(), "placements to trace",
+    explicit RayQuerySceneTracer(const TracedScene& scene) : m_device(scene.device) {
+        packIndices(scene.data);
+        for (std::size_t group = 0; group <= scene.geometry.groups.size(); ++group)
+            m_groups.push_back(makeGroup(scene.data, group, scene.vertices));
+        m_instances = instancesOf(scene.geometry.placements);
+        m_instanceBuffer = Buffer(m_device.impl(), "placements to trace",
                                   m_instances.size() * sizeof(VkAccelerationStructureInstanceKHR), kBuildInput);
         makeTop();
-        m_staging.fill(device.impl());
+        m_staging.fill(m_device.impl());
     }
 
-    TracerKind kind() const noexcept override { return TracerKind::rayQuery; }
-    const char* shaderSuffix() const noexcept override { return "_ray_query"; }
+    kernels::TracerBlock block() const noexcept override { return {{packAddress(m_top.address())}, {}}; }
 
     void recordBuild(const Recorder& recorder) override {
         m_staging.record(recorder);
@@ -70,7 +67,6 @@ public:
         for (const AccelerationStructure& group : m_groups) sum += group.bytes();
         return sum;
     }
-    vk::AccelerationStructureKHR topLevel() const noexcept override { return m_top.handle(); }
 
 private:
     // Builds want three indices a triangle and nothing between them.
@@ -139,9 +135,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<SceneTracer> makeRayQuerySceneTracer(const Device& device, const SceneGeometry& geometry,
-                                                     const SceneData& data, VkDeviceAddress vertices) {
-    return std::make_unique<RayQuerySceneTracer>(device, geometry, data, vertices);
+std::unique_ptr<SceneTracer> makeRayQuerySceneTracer(const TracedScene& scene) {
+    return std::make_unique<RayQuerySceneTracer>(scene);
 }
 
 }  // namespace probegi::vulkan

@@ -9,15 +9,26 @@
 
 namespace probegi::vulkan {
 
-/// What finds hits in an uploaded scene. A new way of tracing on the GPU is one of these and an include that offers
-/// shaders/tracer.glsl; its name is a variant of the shaders that trace.
+/// A scene that is about to be uploaded, as tracers are made of it. All but `device` are read during the call only;
+/// what is added to `staging` may point to the tracer's own memory until releaseStaging().
+struct TracedScene {
+    const Context& context;
+    const Device& device;
+    const SceneGeometry& geometry;
+    const SceneData& data;
+    VkDeviceAddress vertices;  ///< of SceneData::vertices on the device
+    Staging& staging;          ///< recorded before SceneTracer::recordBuild()
+};
+
+/// What finds hits in an uploaded scene, and knows what they look like: the C++ half of a tracer. The other half is
+/// shaders/tracer_NAME.glsl, which defines what shaders/tracer.glsl declares. A tracer needs no descriptors: all that
+/// its shaders read they find by the addresses in its block.
 class SceneTracer {
 public:
     virtual ~SceneTracer() = default;
 
-    virtual TracerKind kind() const noexcept = 0;
-    /// What the shaders' names end in.
-    virtual const char* shaderSuffix() const noexcept = 0;
+    /// sceneConstants.tracer in the GLSL half. Asked for after making and after each recordPlacements().
+    virtual kernels::TracerBlock block() const noexcept = 0;
     /// Once, after the scene's own buffers are there: builds that the GPU does. May order with barriers.
     virtual void recordBuild(const Recorder& recorder) = 0;
     /// New transforms of the placements, in their order. What is flattened is not hit.
@@ -25,18 +36,23 @@ public:
     /// Frees what only the build needed, once it has finished.
     virtual void releaseStaging() noexcept = 0;
     virtual std::size_t bytes() const noexcept = 0;
-
-    /// For the scene's uniform buffer; zero where shaders do not need them.
-    virtual kernels::BvhAddresses addresses() const noexcept { return {}; }
-    /// For binding 1 of the scene's set; null where there is none.
-    virtual vk::AccelerationStructureKHR topLevel() const noexcept { return {}; }
 };
 
-/// The library's own BVH, built on the context's threads. Throws.
-std::unique_ptr<SceneTracer> makeBvhSceneTracer(const Context& context, const Device& device,
-                                                const SceneGeometry& geometry, Staging& staging);
-/// VK_KHR_acceleration_structure over the scene's vertices (GpuVertex at `vertices`). Throws.
-std::unique_ptr<SceneTracer> makeRayQuerySceneTracer(const Device& device, const SceneGeometry& geometry,
-                                                     const SceneData& data, VkDeviceAddress vertices);
+/// A way of tracing on the GPU.
+struct SceneTracerType {
+    const char* name;   ///< as in shaders/tracer_NAME.glsl
+    TracerKind kind;    ///< how users ask for it
+    const char* needs;  ///< what a device must have for it, in a sentence
+    bool (*possible)(const Device& device);
+    bool (*preferred)(const Device& device);                         ///< where TracerKind::automatic takes it
+    std::unique_ptr<SceneTracer> (*make)(const TracedScene& scene);  ///< throws
+    ShaderBook shaders = shaderCode;                                 ///< has the passes for it
+
+    /// A pass that has `// variants: tracers`.
+    Shader shader(const char* pass) const { return {std::string(pass) + "_" + name, shaders}; }
+};
+
+/// The one that users ask for, or for TracerKind::automatic the first that is preferred. Throws unsupported.
+const SceneTracerType& sceneTracerType(const Device& device, TracerKind wanted);
 
 }  // namespace probegi::vulkan

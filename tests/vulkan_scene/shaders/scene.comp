@@ -1,4 +1,4 @@
-// Asks scene.glsl about hits, directions and points, one a lane.
+// Asks scene.glsl and triangles.glsl about hits, directions and points, one a lane.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -21,7 +21,7 @@ layout(push_constant, scalar) uniform PushConstants {
 };
 
 #define PROBEGI_SCENE SceneBlock(u_push.scene).scene
-#include "vulkan/shaders/scene.glsl"
+#include "vulkan/shaders/triangles.glsl"
 
 void main() {
     const uint index = gl_GlobalInvocationID.x;
