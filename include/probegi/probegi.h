@@ -2,12 +2,12 @@
 
 /// Everything, in pipeline order.
 #include "probegi/builtin_scenes.h"
-#include "probegi/compare.h"
 #include "probegi/context.h"
 #include "probegi/field.h"
 #include "probegi/grid.h"
 #include "probegi/image.h"
 #include "probegi/io.h"
+#include "probegi/measure.h"
 #include "probegi/reference.h"
 #include "probegi/render.h"
 #include "probegi/result.h"
