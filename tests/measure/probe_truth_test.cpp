@@ -41,8 +41,8 @@ TEST(ProbeRatios, ofAConstantField) {
     truth.probes = {{0, e, 0}, {7, 2 * e, 0}};
     const std::vector<double> ratios = probeRatios(field, truth);
     ASSERT_EQ(ratios.size(), 2u);
-    EXPECT_NEAR(ratios[0], 1, 1e-3);
-    EXPECT_NEAR(ratios[1], 0.5, 1e-3);
+    EXPECT_NEAR(ratios[0], 1, 0.01);
+    EXPECT_NEAR(ratios[1], 0.5, 0.005);
 }
 
 }  // namespace
