@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "cpu/probe_blend.h"
+#include "cpu/blend_pass.h"
 #include "cpu/probe_query.h"
 #include "field/control_impl.h"
 

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <glm/geometric.hpp>
 #include <tuple>
-#include <vector>
 
 #include "probegi/builtin_scenes.h"
-#include "probegi/field.h"
+#include "probegi/measure.h"
 
 namespace probegi::accuracy {
 
@@ -18,32 +16,6 @@ constexpr glm::vec3 kRoom(5.0f, 2.8f, 5.0f);
 constexpr int kPointsPerSide = 16;  ///< on each wall
 constexpr std::array<float, 4> kShifts{0.0f, 0.25f, 0.5f, 0.75f};
 constexpr int kUpdates = 24;  ///< of Field::converge
-
-/// Points spread over the inner faces of a box, seen from its middle.
-std::vector<FieldQuery> wallPoints(glm::vec3 lower, glm::vec3 upper) {
-    std::vector<FieldQuery> points;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const bool far : {false, true})
-            for (int i = 0; i < kPointsPerSide * kPointsPerSide; ++i) {
-                glm::vec3 share;
-                share[axis] = far ? 1.0f : 0.0f;
-                share[(axis + 1) % 3] = (float(i % kPointsPerSide) + 0.5f) / kPointsPerSide;
-                share[(axis + 2) % 3] = (float(i / kPointsPerSide) + 0.5f) / kPointsPerSide;
-                glm::vec3 normal(0);
-                normal[axis] = far ? -1.0f : 1.0f;
-                const glm::vec3 position = lower + share * (upper - lower);
-                points.push_back({position, normal, glm::normalize(0.5f * (lower + upper) - position)});
-            }
-    return points;
-}
-
-Result<double> meanIrradiance(const Field& field, const std::vector<FieldQuery>& points) {
-    std::vector<glm::vec3> irradiance(points.size());
-    if (const auto asked = field.irradiance(points, irradiance); !asked) return asked.error();
-    double sum = 0;
-    for (const glm::vec3& e : irradiance) sum += (double(e.x) + e.y + e.z) / 3;
-    return sum / double(points.size());
-}
 
 /// One cell beyond the building on every side, 1 m apart, shifted by a part of a cell along every axis.
 VolumeDesc shiftedGrid(float shift) {
@@ -61,19 +33,16 @@ Result<void> fill(Field& field, const Tracer& tracer, const Lighting& lighting, 
     return {};
 }
 
-Result<double> leakShare(const Context& context, const Tracer& tracer, const Lighting& lighting, float wallThickness,
-                         const FieldDesc& desc, const FieldSettings& settings, Run run) {
+Result<double> leakOf(const Context& context, const Tracer& tracer, const Lighting& lighting, float wallThickness,
+                      const FieldDesc& desc, const FieldSettings& settings, Run run) {
     auto field = Field::create(context, desc, settings);
     if (!field) return field.error();
     if (const auto done = fill(*field, tracer, lighting, run); !done) return done.error();
     const float wall = 0.5f * wallThickness;
     const glm::vec3 sealed(wall, 0, -0.5f * kRoom.z);
     const glm::vec3 lit(-wall - kRoom.x, 0, -0.5f * kRoom.z);
-    const auto dark = meanIrradiance(*field, wallPoints(sealed, sealed + kRoom));
-    if (!dark) return dark;
-    const auto bright = meanIrradiance(*field, wallPoints(lit, lit + kRoom));
-    if (!bright) return bright;
-    return *dark / *bright;
+    return leakShare(*field, wallPoints({sealed, sealed + kRoom}, kPointsPerSide),
+                     wallPoints({lit, lit + kRoom}, kPointsPerSide));
 }
 
 }  // namespace
@@ -98,7 +67,7 @@ Result<LeakResult> measureLeak(const Context& context, float wallThickness) {
             desc.volumes = {shiftedGrid(shift)};
             FieldSettings settings;
             settings.guard = guard;
-            const auto measured = leakShare(context, **tracer, lighting, wallThickness, desc, settings, run);
+            const auto measured = leakOf(context, **tracer, lighting, wallThickness, desc, settings, run);
             if (!measured) return measured.error();
             share->mean += *measured / double(kShifts.size());
             share->worst = std::max(share->worst, *measured);

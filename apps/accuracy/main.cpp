@@ -4,12 +4,12 @@
 #include <cstdlib>
 
 #include "backend.h"
+#include "console/parse.h"
+#include "console/terminal.h"
 #include "markdown.h"
 #include "motion.h"
-#include "parse.h"
 #include "probegi/builtin_scenes.h"
-#include "surface_points.h"
-#include "terminal.h"
+#include "surfaces.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "machine.h"
-#include "output.h"
+#include "console/machine.h"
+#include "console/output.h"
 
 namespace probegi::accuracy {
 

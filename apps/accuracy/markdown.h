@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "leak.h"
-#include "report_render.h"
+#include "report/render.h"
 
 namespace probegi::accuracy {
 

@@ -6,8 +6,6 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numeric>
-#include <random>
 #include <stdexcept>
 
 namespace probegi::accuracy {
@@ -18,7 +16,6 @@ constexpr int kPoints = 2000;
 constexpr int kStillUpdates = 60;     ///< over which flicker is taken
 constexpr int kReactionHorizon = 60;  ///< updates that are watched after a change
 constexpr float kWithin = 0.1f;       ///< of the change
-constexpr double kDark = 0.01;        ///< share of the mean light below which places count as one that has so much
 constexpr float kOff = 1e-6f;
 constexpr std::array<float, 4> kFactors{0.1f, 0.8f, 10.0f, kOff};
 constexpr std::array kChanges{"from empty", "x0.1", "x0.8", "x10", "off", "on", "sun jump"};
@@ -46,80 +43,20 @@ T must(Result<T> result) {
     if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
-/// What random rays from random places meet: surfaces that somebody in the scene can see.
-std::vector<FieldQuery> surfacePoints(const World& world) {
-    std::mt19937 random(7);
-    std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
-    std::vector<Ray> rays;
-    for (int i = 0; i < 8 * kPoints; ++i) {
-        const Bounds& b = world.pose.bounds;
-        const glm::vec3 origin = b.lower + glm::vec3(uniform(random), uniform(random), uniform(random)) * b.size();
-        const float z = 2 * uniform(random) - 1, phi = 6.2831853f * uniform(random), r = std::sqrt(1 - z * z);
-        rays.push_back({origin, 0, {r * std::cos(phi), r * std::sin(phi), z}, 1e30f});
-    }
-    std::vector<Hit> hits(rays.size());
-    std::vector<Surface> surfaces(rays.size());
-    must(world.tracer->closestHits(rays, hits));
-    must(world.tracer->surfaces(rays, hits, surfaces));
-    std::vector<FieldQuery> points;
-    for (std::size_t i = 0; i < rays.size() && points.size() < kPoints; ++i)
-        if (hits[i].valid() && !surfaces[i].backface)
-            points.push_back({surfaces[i].position, surfaces[i].shadingNormal, -rays[i].direction});
-    return points;
-}
-
-/// The field at the points.
-class Watcher {
-public:
-    explicit Watcher(std::vector<FieldQuery> points) : m_points(std::move(points)), m_irradiance(m_points.size()) {}
-
-    /// Mean over the channels of the irradiance at each point.
-    std::vector<double> look(const Field& field) {
-        if (const auto asked = field.irradiance(m_points, m_irradiance); !asked)
-            throw std::runtime_error(asked.error().message);
-        std::vector<double> light;
-        for (const glm::vec3& e : m_irradiance) light.push_back((double(e.x) + e.y + e.z) / 3);
-        return light;
-    }
-
-private:
-    std::vector<FieldQuery> m_points;
-    std::vector<glm::vec3> m_irradiance;
-};
-
-double meanOf(const std::vector<double>& light) {
-    return std::accumulate(light.begin(), light.end(), 0.0) / double(light.size());
-}
-
-std::vector<double> converged(const Context& context, const World& world, const FieldDesc& desc, Watcher& watcher) {
+std::vector<double> converged(const Context& context, const World& world, const FieldDesc& desc,
+                              const std::vector<FieldQuery>& points) {
     Field field = must(Field::create(context, desc));
     must(field.converge(*world.tracer, world.lighting, kTruthTolerance, kTruthUpdates));
-    return watcher.look(field);
+    return must(lightAt(field, points));
 }
 
-void measureFlicker(Field& field, const World& world, Watcher& watcher, MotionResult& result) {
-    std::vector<double> sum, square;
+Flicker flickerOf(Field& field, const World& world, const std::vector<FieldQuery>& points) {
+    std::vector<std::vector<double>> updates;
     for (int k = 0; k < kStillUpdates; ++k) {
         must(field.update(*world.tracer, world.lighting));
-        const std::vector<double> light = watcher.look(field);
-        sum.resize(light.size());
-        square.resize(light.size());
-        for (std::size_t i = 0; i < light.size(); ++i) {
-            sum[i] += light[i];
-            square[i] += light[i] * light[i];
-        }
+        updates.push_back(must(lightAt(field, points)));
     }
-    // Where there is next to no light, a ratio means nothing.
-    const double least = kDark * meanOf(sum) / kStillUpdates;
-    std::vector<double> shares;
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-        const double mean = sum[i] / kStillUpdates;
-        if (mean > least) shares.push_back(std::sqrt(std::max(0.0, square[i] / kStillUpdates - mean * mean)) / mean);
-    }
-    if (shares.empty()) return;
-    std::sort(shares.begin(), shares.end());
-    result.flicker = std::accumulate(shares.begin(), shares.end(), 0.0) / double(shares.size());
-    result.flicker95 = shares[shares.size() * 95 / 100];
+    return must(measureFlicker(updates));
 }
 
 Scene scaled(Scene scene, float factor) {
@@ -148,33 +85,19 @@ std::vector<double> times(std::vector<double> light, double factor) {
     return light;
 }
 
-/// How much of the way from `start` to `goal` is left: 1 at the start, 0 at the goal; every point counts by its own
-/// light.
-double shareLeft(const std::vector<double>& now, const std::vector<double>& start, const std::vector<double>& goal) {
-    const double least = kDark * std::max(meanOf(start), meanOf(goal));
-    double left = 0, whole = 0;
-    for (std::size_t i = 0; i < now.size(); ++i) {
-        const double level = std::max({start[i], goal[i], least});
-        const double way = (start[i] - goal[i]) / level;
-        left += way * (now[i] - goal[i]) / level;
-        whole += way * way;
-    }
-    return left / whole;
-}
-
 /// Settled in `before` (null: new); updates in `after` until no more than a tenth of the way is left, nor ever again.
 int updatesToFollow(const Context& context, const World* before, const World& after, const std::vector<double>& goal,
-                    const FieldDesc& desc, Watcher& watcher) {
+                    const FieldDesc& desc, const std::vector<FieldQuery>& points) {
     Field field = must(Field::create(context, desc));
     std::vector<double> start(goal.size(), 0.0);
     if (before) {
         for (int k = 0; k < kStillUpdates; ++k) must(field.update(*before->tracer, before->lighting));
-        start = watcher.look(field);
+        start = must(lightAt(field, points));
     }
     int lastOutside = 0;
     for (int k = 1; k <= kReactionHorizon; ++k) {
         must(field.update(*after.tracer, after.lighting));
-        if (!(std::abs(shareLeft(watcher.look(field), start, goal)) <= kWithin)) lastOutside = k;
+        if (!(std::abs(must(shareLeft(must(lightAt(field, points)), start, goal))) <= kWithin)) lastOutside = k;
     }
     return lastOutside < kReactionHorizon ? lastOutside + 1 : -1;
 }
@@ -191,18 +114,18 @@ std::string cell(const MotionResult& row, const std::string& change) {
 Result<MotionResult> measureMotion(const Context& context, const std::string& name, const Scene& scene,
                                    const FieldDesc& desc, MotionScope scope) try {
     const World world(context, scene);
-    Watcher watcher(surfacePoints(world));
-    MotionResult result{name, desc.rules, probeCount(desc), desc.raysPerProbe, 0, 0, 0, {}, {}};
+    const std::vector<FieldQuery> points = must(visiblePoints(*world.tracer, world.pose.bounds, kPoints));
+    MotionResult result{name, desc.rules, probeCount(desc), desc.raysPerProbe, 0, {}, {}, {}};
     Field field = must(Field::create(context, desc));
     for (int k = 0; k < kSettledUpdates - kStillUpdates; ++k) must(field.update(*world.tracer, world.lighting));
-    measureFlicker(field, world, watcher, result);
-    const std::vector<double> goal = converged(context, world, desc, watcher);
-    result.settled = meanOf(watcher.look(field)) / meanOf(goal);
+    result.flicker = flickerOf(field, world, points);
+    const std::vector<double> goal = converged(context, world, desc, points);
+    result.settled = must(compareLight(must(lightAt(field, points)), goal)).mean;
     if (scope == MotionScope::still) return result;
 
     const auto follow = [&](const char* change, const World* before, const World& after,
                             const std::vector<double>& to) {
-        result.reactions.push_back({change, updatesToFollow(context, before, after, to, desc, watcher)});
+        result.reactions.push_back({change, updatesToFollow(context, before, after, to, desc, points)});
     };
     follow(kChanges[0], nullptr, world, goal);
     // Light is linear: scaled lamps have scaled goals.
@@ -212,7 +135,7 @@ Result<MotionResult> measureMotion(const Context& context, const std::string& na
     follow(kChanges[5], &dark, world, goal);
     if (hasSun(scene)) {
         const World moved = withSunMoved(context, scene);
-        follow(kChanges[6], &world, moved, converged(context, moved, desc, watcher));
+        follow(kChanges[6], &world, moved, converged(context, moved, desc, points));
     }
     return result;
 } catch (const std::runtime_error& error) {
@@ -240,7 +163,7 @@ std::string motionTable(const std::vector<MotionResult>& rows) {
         }
         table += fmt::format("| {} | {} | {} | {} | {:.3f} | {:.2f} % | {:.2f} % |", row.scene,
                              row.rules == FieldRules::paper ? "paper" : "measured", row.probes, row.rays, row.settled,
-                             100 * row.flicker, 100 * row.flicker95);
+                             100 * row.flicker.mean, 100 * row.flicker.high);
         for (const char* change : kChanges) table += fmt::format(" {} |", cell(row, change));
         table += "\n";
     }

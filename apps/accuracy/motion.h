@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "probegi/field.h"
+#include "probegi/measure.h"
 
 namespace probegi::accuracy {
 
@@ -18,10 +18,9 @@ struct MotionResult {
     std::string scene;
     FieldRules rules = FieldRules::measured;
     int probes = 0;
-    int rays = 0;          ///< a probe and update
-    double settled = 0;    ///< mean irradiance after kSettledUpdates updates over that of `converge`
-    double flicker = 0;    ///< temporal standard deviation over mean at surface points: mean over the points
-    double flicker95 = 0;  ///< the same: 95th percentile
+    int rays = 0;        ///< a probe and update
+    double settled = 0;  ///< mean irradiance after kSettledUpdates updates over that of `converge`
+    Flicker flicker{};   ///< at surface points
     std::vector<Reaction> reactions{};
     std::string missing{};  ///< why the scene was not measured; empty: it was
 };

@@ -7,8 +7,8 @@
 #include <glm/common.hpp>
 #include <numbers>
 
-#include "probegi/compare.h"
-#include "terminal.h"
+#include "console/terminal.h"
+#include "probegi/measure.h"
 
 namespace probegi::tool {
 

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "parse.h"
+#include "console/parse.h"
 #include "vulkan_backend.h"
 
 namespace probegi::tool {

@@ -1,4 +1,4 @@
-#include "probegi/compare.h"
+#include "probegi/measure.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "output.h"
-#include "parse.h"
-#include "terminal.h"
+#include "console/output.h"
+#include "console/parse.h"
+#include "console/terminal.h"
 
 namespace probegi::tool {
 

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "output.h"
-#include "terminal.h"
-#include "text_table.h"
+#include "console/output.h"
+#include "console/terminal.h"
+#include "console/text_table.h"
 #include "vulkan_backend.h"
 
 namespace probegi::tool {

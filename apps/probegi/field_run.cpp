@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "parse.h"
-#include "terminal.h"
+#include "console/parse.h"
+#include "console/terminal.h"
 
 namespace probegi::tool {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "output.h"
+#include "console/output.h"
 #include "scene_setup.h"
 
 namespace probegi::tool {

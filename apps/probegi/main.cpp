@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "commands.h"
-#include "terminal.h"
+#include "console/terminal.h"
 
 namespace {
 

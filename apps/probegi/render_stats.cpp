@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "output.h"
+#include "console/output.h"
 
 namespace probegi::tool {
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "parse.h"
+#include "console/parse.h"
 #include "scene_setup.h"
 
 namespace probegi::tool {

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "parse.h"
+#include "console/parse.h"
 
 namespace probegi::tool {
 

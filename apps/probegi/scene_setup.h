@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "console/terminal.h"
 #include "probegi/builtin_scenes.h"
 #include "probegi/field.h"
 #include "probegi/io.h"
 #include "probegi/tracer.h"
-#include "terminal.h"
 
 namespace probegi::tool {
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "geometry/lighting.h"
+#include "measure/luminance.h"
 #include "probegi/builtin_scenes.h"
 #include "probegi/field.h"
 #include "probegi/io.h"
@@ -35,10 +36,6 @@ struct Settings {
 
 double processorSeconds() {
     return double(std::clock()) / CLOCKS_PER_SEC;
-}
-
-double luminance(glm::vec3 c) {
-    return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z);
 }
 
 /// Of one sample a pixel: variance of the luminance and what it takes.
@@ -169,7 +166,7 @@ Result<void> bench(const std::string& name, const Settings& settings) {
     const std::string shortName = name.substr(name.find_last_of("/:") + 1);
     Cost edges;
     if (settings.edges > 0) {
-        const Transport transport{tracer->get(), lighting.lights, Emitters(*scene, pose), SkyLight(lighting.sky),
+        const Transport transport{tracer->get(), lighting.lights, EmitterSampler(*scene, pose), SkyLight(lighting.sky),
                                   sceneMagnitude((*tracer)->bounds())};
         edges = edgeVariance(transport, desc.picture, settings.edges, scale);
         fmt::print("{:16} within pixels: variance {:.3f}, relative {:.3f}\n", shortName, edges.variance,

@@ -2,11 +2,11 @@
 
 /// Everything, in pipeline order.
 #include "probegi/builtin_scenes.h"
-#include "probegi/compare.h"
 #include "probegi/context.h"
 #include "probegi/field.h"
 #include "probegi/image.h"
 #include "probegi/io.h"
+#include "probegi/measure.h"
 #include "probegi/reference.h"
 #include "probegi/render.h"
 #include "probegi/result.h"

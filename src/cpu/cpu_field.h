@@ -3,9 +3,9 @@
 #include <atomic>
 #include <vector>
 
-#include "cpu/probe_blend.h"
+#include "cpu/blend_pass.h"
+#include "cpu/filter_passes.h"
 #include "cpu/probe_query.h"
-#include "cpu/temporal_filter.h"
 #include "field/field_backend.h"
 
 namespace probegi {

@@ -13,7 +13,7 @@
 #include "kernels/language.h"
 #include "kernels/screen/colour.h"
 #include "kernels/shade/bounce.h"
-#include "scene/sky.h"
+#include "scene/sky_radiance.h"
 
 namespace probegi {
 

@@ -64,7 +64,7 @@ void PathBatch::queuePunctual(const Path& path, const Vertex& vertex, const kern
 }
 
 void PathBatch::sampleEmitters(Path& path, const Vertex& vertex) {
-    const Emitters& emitters = m_transport.emitters;
+    const EmitterSampler& emitters = m_transport.emitters;
     const EmitterSample sample = emitters.sample(path.random);
     const glm::vec3 origin = kernels::offsetOrigin(vertex.position, vertex.geometricNormal, m_transport.magnitude);
     const glm::vec3 apart = sample.position - origin;

@@ -181,7 +181,7 @@ Result<ReferencePicture> renderPasses(const Context& context, const Transport& t
 
 Result<PathTracer> PathTracer::create(const Context& context, const Scene& scene, const ScenePose& pose,
                                       const Tracer& tracer, const Lighting& lighting) try {
-    Transport transport{&tracer, lighting.lights, Emitters(scene, pose), SkyLight(lighting.sky),
+    Transport transport{&tracer, lighting.lights, EmitterSampler(scene, pose), SkyLight(lighting.sky),
                         sceneMagnitude(tracer.bounds())};
     return PathTracer(std::make_unique<Impl>(Impl{context, std::move(transport)}));
 } catch (const std::bad_alloc&) {

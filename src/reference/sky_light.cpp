@@ -5,7 +5,7 @@
 
 #include "kernels/sampling.h"
 #include "kernels/screen/colour.h"
-#include "scene/sky.h"
+#include "scene/sky_radiance.h"
 
 namespace probegi {
 

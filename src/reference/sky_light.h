@@ -4,7 +4,7 @@
 
 #include "probegi/scene.h"
 #include "reference/alias_table.h"
-#include "reference/random.h"
+#include "reference/random_stream.h"
 
 namespace probegi {
 

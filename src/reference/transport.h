@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "probegi/tracer.h"
-#include "reference/emitters.h"
+#include "reference/emitter_sampler.h"
 #include "reference/path_guide.h"
 #include "reference/sky_light.h"
 
@@ -13,7 +13,7 @@ namespace probegi {
 struct Transport {
     const Tracer* tracer = nullptr;
     std::vector<PlacedLight> lights;
-    Emitters emitters;
+    EmitterSampler emitters;
     SkyLight sky;
     float magnitude = 0;  ///< sceneMagnitude(tracer->bounds())
 };

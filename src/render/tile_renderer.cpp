@@ -5,7 +5,7 @@
 
 #include "geometry/lighting.h"
 #include "render/direct_light.h"
-#include "scene/sky.h"
+#include "scene/sky_radiance.h"
 
 namespace probegi {
 

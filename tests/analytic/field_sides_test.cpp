@@ -1,9 +1,8 @@
 // The truth of a closed scene does not depend on whether its materials have one side or two, and neither may the field.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "analytic/field_scene.h"
+#include "probegi/measure.h"
 #include "support/field_setup.h"
 
 namespace probegi {
@@ -32,13 +31,8 @@ SidesDifference measureSides(std::string_view name, const VolumeDesc& grid, int 
     // Points in the open: inside leaves that stand in each other, where no light comes, the shortened distances of
     // single-sided backs (section 4.1) hide the dark probes that are right.
     const auto queries = one.surfaceQueries(3000, 0.05f);
-    double square = 0, mean = 0;
-    for (const FieldQuery& q : queries) {
-        const double a = two.field.irradiance(q).y, b = one.field.irradiance(q).y;
-        square += (a - b) * (a - b);
-        mean += b;
-    }
-    SidesDifference d{std::sqrt(square * double(queries.size())) / mean, 0};
+    const auto difference = compareLight(*lightAt(two.field, queries), *lightAt(one.field, queries));
+    SidesDifference d{difference->rms, 0};
     for (int probe = 0; probe < probeCount(grid); ++probe) d.solid += one.field.probeBackfaceShare(probe) > 0.3f;
     return d;
 }

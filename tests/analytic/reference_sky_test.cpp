@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "reference/irradiance_estimate.h"
-#include "scene/sky.h"
+#include "scene/sky_radiance.h"
 #include "support/reference_world.h"
 
 namespace probegi {

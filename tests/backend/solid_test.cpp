@@ -1,6 +1,7 @@
 // Which probes stand in solid matter: told by geometry, the same for materials with one side and with two.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "backend/every_backend.h"
 #include "kernels/random.h"
@@ -124,17 +125,6 @@ std::vector<FieldQuery> floorAndCeiling() {
     return queries;
 }
 
-/// Root of the mean square difference, over the mean.
-double relativeRms(std::span<const glm::vec3> a, std::span<const glm::vec3> b) {
-    double square = 0, mean = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        square += double(a[i].y - b[i].y) * (a[i].y - b[i].y);
-        mean += b[i].y;
-    }
-    const double n = double(a.size());
-    return std::sqrt(square / n) / (mean / n);
-}
-
 class BackendSolid : public EveryBackend {
 protected:
     SolidWorld world(Scene scene, int updates) const { return {context, GetParam(), std::move(scene), updates}; }
@@ -162,9 +152,9 @@ TEST_P(BackendSolid, probesInMatterAreFoundWhateverTheMaterial) {
 TEST_P(BackendSolid, theFlagOfSolidsDoesNotChangeTheField) {
     const SolidWorld one = world(pillars(false), 20), two = world(pillars(true), 20);
     const auto queries = floorAndCeiling();
-    const auto expected = ask(*one.field, queries);
-    EXPECT_GT(expected[0].y, 0.01f);
-    EXPECT_LT(relativeRms(ask(*two.field, queries), expected), 1e-3);
+    const auto light = made(lightAt(*two.field, queries)), expected = made(lightAt(*one.field, queries));
+    EXPECT_GT(expected[0], 0.01);
+    EXPECT_LT(made(compareLight(light, expected)).rms, 1e-3);
 }
 
 // A sheet with two sides is no wall: what is behind it, by its winding, is lit and answers. By symmetry both sides of
@@ -183,18 +173,14 @@ TEST_P(BackendSolid, aCurtainIsLitFromBothSides) {
     for (const float side : {-1.0f, 1.0f})
         for (float z = -1.6f; z < 1.7f; z += 0.2f)
             for (float y = 0.4f; y < 2.6f; y += 0.2f) queries.push_back({{0, y, z}, {side, 0, 0}, {side, 0, 0}});
-    const auto e = ask(*cloth.field, queries);
+    const auto e = made(lightAt(*cloth.field, queries));
     const std::span front = std::span(e).first(e.size() / 2), back = std::span(e).last(e.size() / 2);
-    const auto mean = [](std::span<const glm::vec3> values) {
-        double sum = 0;
-        for (const glm::vec3& v : values) sum += v.y;
-        return sum / double(values.size());
-    };
-    RecordProperty("backOverFront", std::to_string(mean(back) / mean(front)));
-    RecordProperty("rms", std::to_string(relativeRms(back, front)));
-    EXPECT_GT(mean(front), 0.05);
-    EXPECT_NEAR(mean(back) / mean(front), 1.0, 0.02);
-    EXPECT_LT(relativeRms(back, front), 0.05);
+    const LightDifference d = made(compareLight(back, front));
+    RecordProperty("backOverFront", std::to_string(d.mean));
+    RecordProperty("rms", std::to_string(d.rms));
+    EXPECT_GT(std::accumulate(front.begin(), front.end(), 0.0) / double(front.size()), 0.05);
+    EXPECT_NEAR(d.mean, 1.0, 0.02);
+    EXPECT_LT(d.rms, 0.05);
 }
 
 TEST_P(BackendSolid, agreesWithTheCpuOnWhoIsSolid) {

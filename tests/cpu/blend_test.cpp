@@ -1,4 +1,4 @@
-#include "cpu/probe_blend.h"
+#include "cpu/blend_pass.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "cpu/probe_blend.h"
+#include "cpu/blend_pass.h"
 #include "field/control_impl.h"
 #include "kernels/probe/octahedral_texel.h"
 #include "kernels/probe/storage.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "reference/random.h"
+#include "reference/random_stream.h"
 #include "reference/running_stats.h"
 
 namespace probegi {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "reference/alias_table.h"
-#include "reference/random.h"
+#include "reference/random_stream.h"
 #include "reference/running_stats.h"
 
 namespace probegi {

@@ -1,4 +1,4 @@
-#include "linear_png.h"
+#include "report/linear_png.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "probe_picture.h"
+#include "report/probe_picture.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "report_render.h"
+#include "report/render.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "report_verdict.h"
+#include "report/verdict.h"
 
 #include <gmock/gmock.h>
 

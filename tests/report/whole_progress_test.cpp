@@ -1,4 +1,4 @@
-#include "whole_progress.h"
+#include "console/whole_progress.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # The rules of docs/architecture.md that a compiler does not check. Usage: check.sh RULE [PROJECT_FOLDER]
-# Rules: layers public_headers kernel_tests examples sizes assets words links. Prints what breaks the rule; exit code 1 if anything does.
+# Rules: layers names public_headers kernel_tests examples sizes assets words links. Prints what breaks the rule; exit code 1 if anything does.
 set -euo pipefail
 shopt -s nullglob globstar
 
-rule=${1:?name a rule: layers, public_headers, kernel_tests, examples, sizes, assets, words or links}
+rule=${1:?name a rule: layers, names, public_headers, kernel_tests, examples, sizes, assets, words or links}
 cd "${2:-$(dirname "${BASH_SOURCE[0]}")/../..}"
 complaints=0
 complain() {
@@ -26,11 +26,11 @@ declare -A below=(
     [geometry]="scene core kernels"
     [bvh]="scene core kernels"
     [field]="geometry scene core kernels"
-    [compare]="io scene core kernels"
     [cpu]="field geometry scene core kernels"
     [vulkan]="bvh field geometry scene core kernels"
     [reference]="field geometry scene core kernels"
     [render]="field geometry scene core kernels"
+    [measure]="field geometry scene core kernels"
 )
 
 # path:line of each quoted include whose path begins with a folder name, as "file folder".
@@ -52,9 +52,28 @@ check_layers() {
             [[ $included != probegi || $folder != kernels ]] || complain "$file: a kernel includes the public API"
         done < <(folder_includes /dev/null src/"$folder"/**/*.{h,cpp,comp,glsl})
     done
+    # The tool has folders of its own, which the accuracy program uses too.
+    for folder in apps/*/*/; do
+        folder=$(basename "$folder")
+        [[ ! -v "below[$folder]" ]] || complain "apps has a folder '$folder', which is the name of a layer"
+    done
     while read -r file included; do
-        [[ $included == probegi ]] || complain "$file: the tool may include public headers only, not $included/"
+        [[ $included == probegi || -d apps/probegi/$included ]] ||
+            complain "$file: the tool may include public headers only, not $included/"
     done < <(folder_includes /dev/null apps/**/*.{h,cpp})
+}
+
+# No two files of src/ have one name, so that a name in a message or in talk is one file. Kernels keep theirs; the others:
+namesakes="probe_query.h"
+check_names() {
+    local name
+    while read -r name; do
+        [[ $name == CMakeLists.txt || " $namesakes " == *" $name "* ]] ||
+            complain "src has more than one $name: $(find src -name "$name" | sort | tr '\n' ' ')"
+    done < <(find src -type f -printf '%f\n' 2>/dev/null | sort | uniq -d)
+    for name in $namesakes; do
+        (($(find src -name "$name" 2>/dev/null | wc -l) != 1)) || complain "$name has no namesake any more: check.sh need not allow it"
+    done
 }
 
 check_public_headers() {

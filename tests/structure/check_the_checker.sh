@@ -7,15 +7,17 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 failed=0
 
-# expect_complaint RULE FILE CONTENT: with this file alone in the project, the rule must complain about it.
+# expect_complaint RULE FILES CONTENT: with this file, or these, alone in the project, the rule must complain about it.
 expect_complaint() {
-    local project=$scratch/project
+    local project=$scratch/project file
     rm -rf "$project"
     mkdir -p "$project/include/probegi"
     echo '#include <vector>' >"$project/include/probegi/good.h"
     "$check" "$1" "$project" >/dev/null || { echo "rule $1 complains about a sound project" && failed=1; }
-    mkdir -p "$project/$(dirname "$2")"
-    printf '%b' "$3" >"$project/$2"
+    for file in $2; do
+        mkdir -p "$project/$(dirname "$file")"
+        printf '%b' "$3" >"$project/$file"
+    done
     if "$check" "$1" "$project" >/dev/null; then
         echo "rule $1 did not notice $2: $3"
         failed=1
@@ -29,7 +31,11 @@ expect_complaint layers src/vulkan/a.cpp '#include "cpu/b.h"\n'
 expect_complaint layers src/vulkan/shaders/a.comp '#include "cpu/b.h"\n'
 expect_complaint layers src/cpu/a.cpp '#include "vulkan/b.h"\n'
 expect_complaint layers src/unheard_of/a.cpp 'int x;\n'
+expect_complaint layers src/measure/a.cpp '#include "cpu/b.h"\n'
 expect_complaint layers apps/tool/a.cpp '#include "field/b.h"\n'
+expect_complaint layers apps/tool/field/a.cpp '#include "field/b.h"\n'
+expect_complaint names 'src/core/a.h src/io/image/a.h' 'int x;\n'
+expect_complaint names src/cpu/probe_query.h 'int x;\n'
 expect_complaint public_headers include/probegi/a.h '#include <embree3/rtcore.h>\n'
 expect_complaint public_headers include/probegi/a.h '#include "core/b.h"\n'
 expect_complaint public_headers include/probegi/a.h 'RTCScene scene();\n'

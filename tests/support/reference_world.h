@@ -59,7 +59,7 @@ struct ReferenceWorld {
 
     PathTracer pathTracer() const { return std::move(*PathTracer::create(context, scene, pose, *tracer, lighting)); }
     Transport transport() const {
-        return {tracer.get(), lighting.lights, Emitters(scene, pose), SkyLight(lighting.sky),
+        return {tracer.get(), lighting.lights, EmitterSampler(scene, pose), SkyLight(lighting.sky),
                 sceneMagnitude(tracer->bounds())};
     }
 

@@ -6,7 +6,7 @@
 
 #include "geometry/lighting.h"
 #include "geometry/surface_shader.h"
-#include "scene/sky.h"
+#include "scene/sky_radiance.h"
 #include "tracer/tracer_scene.h"
 #include "vulkan/scene/scene_data.h"
 #include "vulkan_scene/address_runner.h"
