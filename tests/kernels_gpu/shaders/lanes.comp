@@ -7,4 +7,6 @@ void evaluate(INOUT(Lane) lane) {
     give(lane, signNotZero(x), 0.0f);
     give(lane, signNotZero(0.0f), 0.0f);
     give(lane, select(x < 0.25f, x, 2.0f), 1e-6f);
+    giveBits(lane, anyOf(x < 0.25f) ? 1u : 0u);
+    giveBits(lane, uint(toInt(floor(x * 8.0f)) + 8));
 }
