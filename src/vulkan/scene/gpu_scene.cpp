@@ -19,7 +19,7 @@ GpuScene::Impl::Impl(const Context& context, const Device& d, const Scene& scene
     worldBounds = geometry.world.bounds();
     hasWorld = !geometry.world.empty();
     for (const SurfaceGroup& group : geometry.groups) groupBounds.push_back(group.bounds());
-    emitterGeometry = EmitterGeometry(scene, pose);
+    if (type.hitsTriangles) emitterGeometry = EmitterGeometry(scene, pose);
     emitters = emitterGeometry.placed();
     data = packScene(geometry, emitters, scene, MipMaps(context, scene));
     upload();

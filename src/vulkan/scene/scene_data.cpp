@@ -131,7 +131,7 @@ SceneData packScene(const SceneGeometry& geometry, const EmitterSet& emitters, c
         const Material& material = scene.materials[i];
         const SurfaceMaterial& surface = geometry.materials[i];
         kernels::GpuMaterial packed = packMaterial(surface);
-        packed.emittedLuminance = emitters.luminance[i];
+        if (i < emitters.luminance.size()) packed.emittedLuminance = emitters.luminance[i];
         if (shown[i]) {
             packed.baseColorTexture = textures.add(material.baseColorTexture, TexelKind::color);
             packed.metallicRoughnessTexture = textures.add(material.metallicRoughnessTexture, TexelKind::data);

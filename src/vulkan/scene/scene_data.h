@@ -44,7 +44,7 @@ struct SceneData {
     std::vector<kernels::GpuEmitter> emitters;
 };
 
-/// Geometry, emitters and mips must have been made from the scene. Without mips, look-ups use level 0.
+/// Geometry, emitters (or none) and mips must have been made from the scene. Without mips, look-ups use level 0.
 SceneData packScene(const SceneGeometry& geometry, const EmitterSet& emitters, const Scene& scene,
                     const MipMaps& mips = {});
 

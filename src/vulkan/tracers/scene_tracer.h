@@ -46,7 +46,8 @@ struct SceneTracerType {
     bool (*possible)(const Device& device);
     bool (*preferred)(const Device& device);                         ///< where TracerKind::automatic takes it
     std::unique_ptr<SceneTracer> (*make)(const TracedScene& scene);  ///< throws
-    ShaderBook shaders = shaderCode;                                 ///< has the passes for it
+    bool hitsTriangles = true;        ///< of the scene, so that probes can look at those that send light
+    ShaderBook shaders = shaderCode;  ///< has the passes for it
 
     /// A pass that has `// variants: tracers`.
     Shader shader(const char* pass) const { return {std::string(pass) + "_" + name, shaders}; }
