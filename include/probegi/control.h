@@ -35,7 +35,7 @@ struct FieldDesc {
     /// Its probes, 1..32 volumes. All have the same maps and share the rays of an update. Probes are numbered through:
     /// slot 0 is the first probe of the first volume, the second volume follows the last probe of the first. Where
     /// volumes overlap, the first one answers.
-    std::vector<VolumeDesc> volumes{VolumeDesc{}};
+    std::vector<VolumeDesc> volumes = std::vector<VolumeDesc>(1);
     int raysPerProbe = 144;     ///< update rays a probe and frame, 8..4096
     int fixedRays = 16;         ///< more rays a probe and update, always along the same directions: they tell change
                                 ///< from noise (FieldRules::measured only); 0..256; 0: change is not looked for
