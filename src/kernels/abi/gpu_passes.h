@@ -148,7 +148,7 @@ struct RaysPush {
     float spread;  // surfaces: radians of the cones that textures are filtered over; 0: not at all
 };
 
-// probegi::Surface without its gaps.
+// probegi::Surface in a buffer, where GLSL has no bool.
 struct GpuSurface {
     vec3 position;
     vec3 geometricNormal;
