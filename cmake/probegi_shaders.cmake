@@ -6,7 +6,7 @@ if(NOT Vulkan_FOUND OR NOT GLSLC)
     message(FATAL_ERROR "The Vulkan backend needs the Vulkan headers, 1.3 or newer, and glslc (Debian: libvulkan-dev glslc). "
         "Install them, or leave the backend out with -DPROBEGI_VULKAN=OFF.")
 endif()
-set(PROBEGI_GLSLC_FLAGS --target-env=vulkan1.2 -std=460core -O -Werror -I${PROJECT_SOURCE_DIR}/src)
+set(PROBEGI_GLSLC_FLAGS --target-env=vulkan1.2 -std=460core -O -Werror -I${PROJECT_SOURCE_DIR}/src -I${PROJECT_SOURCE_DIR}/include)
 
 # One shader to one list of words, as the inside of a C initialiser; further arguments go to glslc. Appends to `words`,
 # `entries` and `outputs` of the caller.
@@ -21,7 +21,7 @@ function(probegi_shader_variant shader name)
 endfunction()
 
 # probegi_shaders(TARGET BOOK [FOLDER folder] [TRACERS folder/tracer_NAME.glsl...]) compiles shaders (GLSL 4.60, no
-# #version line; quoted includes are looked for beside the shader and in src/) and adds the function BOOK, a ShaderBook
+# #version line; quoted includes are looked for beside the shader, in src/ and in include/) and adds the function BOOK, a ShaderBook
 # (src/vulkan/device/shader_code.h), to the target:
 # - of every FOLDER/SHADER.comp, as "SHADER";
 # - of every shader of src/vulkan/shaders that has the line `// variants: tracers`, once for each of TRACERS, as

@@ -12,33 +12,10 @@
 #include "probegi/context.h"
 #include "probegi/control.h"
 #include "probegi/export.h"
+#include "probegi/shared/field_data.h"
 #include "probegi/tracer.h"
 
 namespace probegi {
-
-/// What one ray of one probe brought home. This is the seam for engines with a ray tracer of their own.
-/// Where the ray met the back of a surface, as its winding has it, `distance` is negative. A single-sided surface is
-/// solid wall from there: a backface, whose radiance does not count. What a surface with two sides sends from its back
-/// counts, and comes negative too (a black one: -1e-30): a probe that sees mostly backs may stand in a wall, whatever
-/// their material.
-struct RayDatum {
-    glm::vec3 radiance{0.0f};  ///< W sr^-1 m^-2 arriving at the probe; a channel not in 0..1e30 counts as 0
-    float distance = 0.0f;     ///< metres; negative: minus the distance to a back; a miss: anything >= 1e27
-};
-
-/// What one fixed ray of one probe brought home: the sum of both lights is what a RayDatum of that direction holds.
-struct FixedRayDatum {
-    float direct = 0;   ///< luminance of light from lights, emission and sky, W sr^-1 m^-2; not in 0..1e30: counts as 0
-    float bounced = 0;  ///< luminance of light that the surface got from the field; the same
-    float distance = 0;  ///< as RayDatum::distance
-};
-
-/// A question to the field: how much light arrives at `position` on a surface that faces `normal`?
-struct FieldQuery {
-    glm::vec3 position{0.0f};
-    glm::vec3 normal{0, 1, 0};  ///< unit
-    glm::vec3 toViewer{0.0f};   ///< unit, omega_o of eq. 2; zero stands for the normal, where nobody looks
-};
 
 /// The instructions that the hot loops of CPU fields run with on this processor, as Highway names them: SSE4, AVX2,
 /// AVX3 (AVX-512), NEON... Chosen when the program runs.

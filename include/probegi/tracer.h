@@ -10,40 +10,9 @@
 #include "probegi/context.h"
 #include "probegi/export.h"
 #include "probegi/scene.h"
+#include "probegi/shared/rays.h"
 
 namespace probegi {
-
-/// Hits closer than `near` or farther than `far` are ignored.
-struct Ray {
-    glm::vec3 origin{0.0f};
-    float near = 0.0f;             ///< metres
-    glm::vec3 direction{0, 0, 1};  ///< unit
-    float far = 1e30f;             ///< metres
-};
-
-/// The closest surface along a Ray. `primitive < 0`: nothing was hit.
-struct Hit {
-    float distance = 1e30f;       ///< metres along the ray
-    std::int32_t primitive = -1;  ///< tracer-specific triangle or SDF primitive number
-    std::int32_t geometry = -1;   ///< tracer-specific
-    std::int32_t instance = -1;   ///< tracer-specific
-    glm::vec2 barycentric{0.0f};  ///< weights of the second and third corner
-    bool valid() const { return primitive >= 0; }
-};
-
-/// A shaded hit: geometry and material resolved, textures sampled. Normals face the ray's origin.
-struct Surface {
-    glm::vec3 position{0.0f};
-    glm::vec3 geometricNormal{0, 1, 0};  ///< unit, on the side the ray came from
-    glm::vec3 shadingNormal{0, 1, 0};    ///< unit, interpolated and normal-mapped, on the side the ray came from
-    glm::vec3 albedo{0.0f};              ///< base colour, 0..1
-    glm::vec3 emission{0.0f};            ///< radiance towards the ray's origin, W sr^-1 m^-2 (0 on a backface)
-    float metallic = 0.0f;
-    float roughness = 1.0f;
-    std::int32_t material = -1;  ///< index into Scene::materials; -1: the tracer has no materials
-    bool back = false;           ///< the ray hit the back, by winding, whatever the material
-    bool backface = false;       ///< the back of a single-sided material: solid wall
-};
 
 /// An emissive triangle in world space.
 struct EmissiveTriangle {

@@ -89,8 +89,8 @@ check_public_headers() {
             \"probegi/*) ;;
             *) complain "$file includes $header, which is not installed" ;;
         esac
-    done < <(grep -HoP '^\s*#\s*include\s+\K[<"][^>"]+[>"]' include/probegi/*.h)
-    for file in include/probegi/*.h; do
+    done < <(grep -HoP '^\s*#\s*include\s+\K[<"][^>"]+[>"]' include/probegi/**/*.h)
+    for file in include/probegi/**/*.h; do
         local types='RTC[A-Z][A-Za-z]*|vk::|tbb::|hwy::|fmt::'
         [[ $file == include/probegi/vulkan.h ]] || types+='|Vk[A-Z][A-Za-z]*'
         if grep -nE "\\b($types)" "$file"; then

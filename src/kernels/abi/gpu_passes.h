@@ -158,7 +158,7 @@ struct RaysPush {
     float spread;  // surfaces: cone angle of texture filtering, radians; 0: unfiltered
 };
 
-// probegi::Surface without padding.
+// probegi::Surface in a buffer, where GLSL has no bool.
 struct GpuSurface {
     vec3 position;
     vec3 geometricNormal;

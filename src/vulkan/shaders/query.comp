@@ -1,17 +1,13 @@
-// Irradiance at points: probegi::FieldQuery in, vec3 out.
+// Irradiance at points: FieldQuery in, vec3 out.
 #include "volume.glsl"
 
 #include "kernels/abi/gpu_passes.h"
+#include "probegi/shared/field_data.h"
 
 layout(push_constant, scalar) uniform Push {
     QueryPush push;
 };
 
-struct FieldQuery {
-    vec3 position;
-    vec3 normal;
-    vec3 toViewer;
-};
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Queries {
     FieldQuery at[];
 };

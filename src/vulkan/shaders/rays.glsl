@@ -1,4 +1,4 @@
-// Rays, hits and surfaces in buffers, as C++ lays them out (probegi::Ray, probegi::Hit, GpuSurface).
+// Rays and hits in buffers.
 #ifndef PROBEGI_RAYS_GLSL
 #define PROBEGI_RAYS_GLSL
 

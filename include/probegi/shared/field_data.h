@@ -1,0 +1,46 @@
+// What goes into a field and what it is asked: C++ and GLSL.
+#ifndef PROBEGI_SHARED_FIELD_DATA_H
+#define PROBEGI_SHARED_FIELD_DATA_H
+
+#include "probegi/shared/language.h"
+
+PROBEGI_SHARED_BEGIN
+
+/// What one ray of one probe brought home. This is the seam for engines with a ray tracer of their own.
+/// Where the ray met the back of a surface, as its winding has it, `distance` is negative. A single-sided surface is
+/// solid wall from there: a backface, whose radiance does not count. What a surface with two sides sends from its back
+/// counts, and comes negative too (a black one: -1e-30): a probe that sees mostly backs may stand in a wall, whatever
+/// their material.
+struct RayDatum {
+    /// W sr^-1 m^-2 arriving at the probe; a channel not in 0..1e30 counts as 0.
+    PROBEGI_VEC3 radiance PROBEGI_DEFAULT(PROBEGI_VEC3(0.0f));
+    /// Metres; negative: minus the distance to a back; a miss: anything >= 1e27.
+    float distance PROBEGI_DEFAULT(0.0f);
+};
+
+/// What one fixed ray of one probe brought home: the sum of both lights is what a RayDatum of that direction holds.
+struct FixedRayDatum {
+    /// Luminance of light from lights, emission and sky, W sr^-1 m^-2; not in 0..1e30: counts as 0.
+    float direct PROBEGI_DEFAULT(0);
+    float bounced PROBEGI_DEFAULT(0);   ///< luminance of light that the surface got from the field; the same
+    float distance PROBEGI_DEFAULT(0);  ///< as RayDatum::distance
+};
+
+/// A question to the field: how much light arrives at `position` on a surface that faces `normal`?
+struct FieldQuery {
+    PROBEGI_VEC3 position PROBEGI_DEFAULT(PROBEGI_VEC3(0.0f));
+    PROBEGI_VEC3 normal PROBEGI_DEFAULT(PROBEGI_VEC3(0, 1, 0));  ///< unit
+    /// Unit, omega_o of eq. 2; zero stands for the normal, where nobody looks.
+    PROBEGI_VEC3 toViewer PROBEGI_DEFAULT(PROBEGI_VEC3(0.0f));
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(RayDatum) == 16 && offsetof(RayDatum, distance) == 12);
+static_assert(sizeof(FixedRayDatum) == 12 && offsetof(FixedRayDatum, bounced) == 4 &&
+              offsetof(FixedRayDatum, distance) == 8);
+static_assert(sizeof(FieldQuery) == 36 && offsetof(FieldQuery, normal) == 12 && offsetof(FieldQuery, toViewer) == 24);
+#endif
+
+PROBEGI_SHARED_END
+
+#endif
