@@ -8,7 +8,7 @@
 
 vec3 queryIrradiance(FieldQuery q) {
     const Access access = probegiAccess();
-    const Volume v = probegiVolumeAt(0);
+    const Volume v = probegiField.volumes[0];
     const vec3 position = clampToVolume(v, q.position);
     const vec3 local = gridCoordinates(v, position);
     const vec3 base = cageBase(v, local);

@@ -29,8 +29,8 @@ std::vector<RayDatum> randomRays(const FieldDesc& desc) {
 }
 
 // The same rays on both backends give the same probes.
-void expectSameAsCpu(const FieldDesc& desc, std::span<const int> probes) {
-    auto made = vulkan::makeField(testContext(), testDevice(), desc, desc);
+void expectSameAsCpu(const FieldSetup& desc, std::span<const int> probes, const vulkan::Device& device = testDevice()) {
+    auto made = vulkan::makeField(testContext(), device, desc, desc);
     ASSERT_TRUE(made) << made.error().message;
     Field onCpu = *Field::create(testContext(), desc, desc);
     const std::vector<RayDatum> rays = randomRays(desc);
@@ -88,30 +88,28 @@ TEST(VulkanLimits, aQuarterOfAMillionProbesAgreeWithTheCpu) {
     expectSameAsCpu(desc, probes);
 }
 
-TEST(VulkanLimits, axesBeyondTheDevicesImagesAreRefused) {
+// A device with small images: 8 x 8 tiles of 6 texels a layer, two layers.
+TEST(VulkanLimits, poolsOfSeveralLayersAgreeWithTheCpuAndLargerOnesAreRefused) {
     hooks().reset();
     hooks().properties = [](VkPhysicalDeviceProperties& p) {
-        p.limits.maxImageDimension2D = 4096;
-        p.limits.maxImageArrayLayers = 256;
+        p.limits.maxImageDimension2D = 64;
+        p.limits.maxImageArrayLayers = 2;
     };
     LogBook log;
     {
         vulkan::OpenDesc open;
         open.getInstanceProcAddr = hookedLoader;
         const vulkan::Device device = *vulkan::Device::open(log, open);
-        const auto refused = [&](glm::ivec3 counts, const char* named) {
-            const auto volume = vulkan::GpuField::create(device, smallest(counts));
-            ASSERT_FALSE(volume);
-            EXPECT_EQ(volume.error().code, ErrorCode::unsupported);
-            EXPECT_NE(volume.error().message.find(named), std::string::npos) << volume.error().message;
-        };
-        // Tiles of 6 texels: 682 fit.
-        EXPECT_TRUE(vulkan::GpuField::create(device, smallest({682, 2, 2})));
-        EXPECT_TRUE(vulkan::GpuField::create(device, smallest({2, 682, 2})));
-        EXPECT_TRUE(vulkan::GpuField::create(device, smallest({2, 2, 256})));
-        refused({683, 2, 2}, "682");
-        refused({2, 683, 2}, "682");
-        refused({2, 2, 257}, "256 layers");
+        const int probes[] = {0, 7, 8, 63, 64, 65, 127};
+        expectSameAsCpu(smallest({8, 4, 4}), probes, device);
+        FieldSetup two = smallest({8, 4, 4});
+        two.volumes.push_back({.origin = {20, 0, 0}, .counts = {2, 2, 2}});
+        for (const FieldSetup& setup : {smallest({5, 5, 6}), two}) {
+            const auto refused = vulkan::GpuField::create(device, setup);
+            ASSERT_FALSE(refused);
+            EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
+            EXPECT_NE(refused.error().message.find("128"), std::string::npos) << refused.error().message;
+        }
     }
     hooks().reset();
 }

@@ -204,7 +204,7 @@ TEST_F(VulkanRecorded, theIncludeAnswersAsThePassDoes) {
 }
 
 // Without an update or a query of the library's in between.
-TEST_F(VulkanRecorded, theGuardReachesShadersOfTheEngine) {
+TEST_F(VulkanRecorded, theSettingsReachShadersOfTheEngine) {
     const vulkan::Device device = adopt();
     GpuField volume = *GpuField::create(device, world.desc, world.desc);
     const EngineBuffer answered = answers();
@@ -213,7 +213,7 @@ TEST_F(VulkanRecorded, theGuardReachesShadersOfTheEngine) {
     const auto askedWith = [&](LeakGuard guard, bool recorded) {
         engine.run([&](VkCommandBuffer commands) {
             changeSettings(volume, [&](FieldSettings& s) { s.guard = guard; });
-            if (recorded) volume.recordGuard(commands).value();
+            if (recorded) volume.recordSettings(commands).value();
             shader.record(commands, count());
         });
         return valuesOf(answered);
