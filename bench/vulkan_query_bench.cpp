@@ -62,7 +62,7 @@ private:
     void record(const Recorder& recorder, Profiler& profiler, Way way) {
         const auto count = std::uint32_t(m_points.count);
         if (way == kLibrary)
-            return m_room.volume().recordQuery(recorder, m_room.frame().desc, m_points.in.address(),
+            return m_room.volume().recordQuery(recorder, m_room.frame().settings, m_points.in.address(),
                                                m_points.out.address(), count, &profiler);
         const PassScope scope(recorder, m_room.device().impl(), &profiler, "query");
         recorder.bindVolume(m_room.volume().set());
