@@ -60,7 +60,7 @@ TEST_P(BackendVolumes, twoVolumesWithOneBatchOfRaysAreTwoFields) {
     for (int probe = 0; probe < ofB; ++probe) EXPECT_TRUE(sameProbe(b, probe, together, ofA + probe)) << probe;
     EXPECT_FALSE(sameProbe(a, 0, together, ofA)) << "the comparison can fail";
     // Points in one volume only are answered by it as if it were alone.
-    const std::vector<FieldQuery> queries = randomQueries(300);
+    const std::vector<FieldQuery> queries = randomQueries(1500);
     std::vector<FieldQuery> inFirst;
     const VolumeDesc& v = first.volumes[0];
     for (const FieldQuery& q : queries)

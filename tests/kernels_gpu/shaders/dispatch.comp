@@ -5,7 +5,9 @@
 void evaluate(INOUT(Lane) lane) {
     const uint tasks = uint(takeIndex(lane, 1 << 20));
     const uint rays = uint(takeIndex(lane, 1024));
-    const GpuTaskCounts counts = countedTasks(tasks, rays, uint(takeIndex(lane, 16)), uint(takeIndex(lane, 1024)));
+    const uint looks = uint(takeIndex(lane, 16));
+    const uint texels = uint(takeIndex(lane, 1024));
+    const GpuTaskCounts counts = countedTasks(tasks, rays, looks, texels);
     giveBits(lane, counts.tasks + counts.perTask.x + counts.perTask.y);
     giveBits(lane, counts.perRay.x + counts.perRay.y);
     giveBits(lane, counts.perLook.x + counts.perLook.y);
