@@ -86,8 +86,8 @@ struct ProbeTask {
 };
 
 /// The books of a field, the same on every backend: what the coming update is about (probes, rays), the settings, and
-/// the events that were announced. Every Field has one, and every vulkan::ProbeVolume. Owned by the field, used by one
-/// thread at a time, not during an update.
+/// the events that were announced. Every Field has one, and every vulkan::GpuField. Owned by the field. Changes must
+/// not run beside each other, an update, a query or converge() (its callback included).
 class PROBEGI_API FieldControl {
 public:
     const FieldDesc& desc() const noexcept;
@@ -98,13 +98,15 @@ public:
     /// Errors: invalidArgument (the message names the setting and its range).
     Result<void> setSettings(const FieldSettings& settings);
 
-    /// Announces a change to the scene (section 4.3).
+    /// Announces a change to the scene (section 4.3). Its frames are updates, whichever probes these are about.
     void notify(FieldEvent event) noexcept;
 
     /// The probes of the coming updates, in the order of their ray data.
     std::span<const ProbeTask> tasks() const noexcept;
     /// Chooses the probes of all coming updates, by slot, in any order; empty: all of them, as at first. Others keep
-    /// what they know. Errors: invalidArgument (a slot that is not there, or twice), outOfMemory.
+    /// what they know. Let the first update be of all: with FieldRules::paper a probe that comes later joins the black
+    /// that it began with at the hysteresis's rate. converge() is about all probes in any case. Errors: invalidArgument
+    /// (a slot that is not there, or twice), outOfMemory.
     Result<void> setTasks(std::span<const std::uint32_t> slots);
 
     /// Unit directions of the coming update's rays, raysPerProbe of them, shared by all probes: a spherical Fibonacci
@@ -114,8 +116,8 @@ public:
     /// FieldRules::paper.
     std::span<const glm::vec3> fixedRayDirections() const noexcept;
 
-    FieldControl(FieldControl&&) noexcept;
-    FieldControl& operator=(FieldControl&&) noexcept;
+    FieldControl(const FieldControl&) = delete;
+    FieldControl& operator=(const FieldControl&) = delete;
     ~FieldControl();
 
     struct Impl;

@@ -186,7 +186,7 @@ struct ProbeTruth {
 PROBEGI_API Result<ProbeTruth> traceProbeTruth(const Tracer& tracer, const PathTracer& pathTracer,
                                                const VolumeDesc& grid, int maxProbes, int samples, bool diffuseOnly);
 
-/// Field over truth, probe by probe; the field's probes must be those of the truth's grid. 1 is right.
+/// Field over truth, probe by probe; the truth's grid must be the field's first volume. 1 is right.
 PROBEGI_API std::vector<double> probeRatios(const Field& field, const ProbeTruth& truth);
 
 // ---- A field in motion

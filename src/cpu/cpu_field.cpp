@@ -16,7 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// What the query's 32-bit gathers reach (cpu/leak_guards-inl.h): 16 GiB of visibility.
+// What the query's 32-bit gathers reach (cpu/lane_access-inl.h): 16 GiB of visibility.
 constexpr std::size_t kMostVisibilityTexels = std::size_t(1) << 32;
 
 double millisecondsSince(Clock::time_point start) {

@@ -172,6 +172,8 @@ void answerBy(const FieldView& view, const kernels::Volume& volume, std::span<co
         PROBEGI_GUARDS(GUARD)
 #undef GUARD
     }
+    // As in shaders: a number that is not in the list guards nothing.
+    answerAll<turned, LaneAccess<rules, guardNumber(LeakGuard::none)>>(view, volume, queries, out);
 }
 
 template <int rules>

@@ -24,6 +24,8 @@ std::uint32_t ditherSeedOf(const FieldDesc& desc, int frame) {
     return kernels::hashCombine(seedOf(desc) ^ 0x6a09e667u, std::uint32_t(frame));
 }
 
+}  // namespace
+
 std::vector<ProbeTask> allTasks(const FieldDesc& desc) {
     std::vector<ProbeTask> tasks;
     tasks.reserve(std::size_t(probeCount(desc)));
@@ -33,19 +35,11 @@ std::vector<ProbeTask> allTasks(const FieldDesc& desc) {
     return tasks;
 }
 
-}  // namespace
-
 FieldControl::Impl::Impl(const FieldDesc& d, const FieldSettings& s)
-    : desc(d), settings(s), directions(std::size_t(d.raysPerProbe)) {
-    setAllTasks();
+    : desc(d), settings(s), tasks(allTasks(d)), directions(std::size_t(d.raysPerProbe)) {
     turnRays();
     const std::uint32_t fixed = desc.rules == FieldRules::measured ? std::uint32_t(desc.fixedRays) : 0u;
     for (std::uint32_t i = 0; i < fixed; ++i) fixedDirections.push_back(kernels::sphericalFibonacci(i, fixed));
-}
-
-void FieldControl::Impl::setAllTasks() {
-    tasks = allTasks(desc);
-    taskList = 0;
 }
 
 void FieldControl::Impl::turnRays() {
@@ -124,8 +118,6 @@ FieldControl makeFieldControl(const FieldDesc& desc, const FieldSettings& settin
 }
 
 FieldControl::FieldControl(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
-FieldControl::FieldControl(FieldControl&&) noexcept = default;
-FieldControl& FieldControl::operator=(FieldControl&&) noexcept = default;
 FieldControl::~FieldControl() = default;
 
 const FieldDesc& FieldControl::desc() const noexcept {
@@ -157,22 +149,27 @@ Result<void> FieldControl::setSettings(const FieldSettings& settings) {
 }
 
 Result<void> FieldControl::setTasks(std::span<const std::uint32_t> slots) try {
-    std::vector<ProbeTask> all = allTasks(m_impl->desc), chosen;
+    const FieldDesc& desc = m_impl->desc;
     if (slots.empty()) {
-        m_impl->tasks = std::move(all);
+        m_impl->tasks = allTasks(desc);
         m_impl->taskList = 0;
         return {};
     }
-    std::vector<bool> taken(all.size());
+    const std::vector<kernels::Volume> volumes = makeVolumes(desc);
+    std::vector<bool> taken(std::size_t(probeCount(desc)));
+    std::vector<ProbeTask> chosen;
+    chosen.reserve(slots.size());
     for (const std::uint32_t slot : slots) {
-        if (slot >= all.size())
+        if (slot >= taken.size())
             return fail(ErrorCode::invalidArgument,
-                        sentence("there is no probe in slot ", slot, "; the field has ", all.size(), " slots"));
+                        sentence("there is no probe in slot ", slot, "; the field has ", taken.size(), " slots"));
         if (taken[slot])
             return fail(ErrorCode::invalidArgument,
                         sentence("slot ", slot, " is listed twice; an update has each probe once"));
         taken[slot] = true;
-        chosen.push_back(all[slot]);
+        const std::size_t volume = volumeOf(volumes, int(slot));
+        chosen.push_back(
+            {probePosition(desc.volumes[volume], int(slot) - volumes[volume].firstSlot), slot, std::uint32_t(volume)});
     }
     m_impl->tasks = std::move(chosen);
     m_impl->taskList = ++m_impl->taskLists;

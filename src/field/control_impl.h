@@ -28,9 +28,6 @@ struct FieldControl::Impl {
     void advance(bool turn = true);
     /// Back to frame 0, for probes that were cleared. Desc, settings and tasks stay.
     void restart();
-    /// All probes, in the order of their slots.
-    void setAllTasks();
-
     std::size_t bytes() const noexcept;
     std::size_t rayCount() const noexcept { return tasks.size() * directions.size(); }
     std::size_t fixedRayCount() const noexcept { return tasks.size() * fixedDirections.size(); }
@@ -49,6 +46,9 @@ struct FieldControl::Impl {
 private:
     void turnRays();
 };
+
+/// A field's probes, in the order of their slots.
+std::vector<ProbeTask> allTasks(const FieldDesc& desc);
 
 /// The desc and settings must be valid.
 FieldControl makeFieldControl(const FieldDesc& desc, const FieldSettings& settings);

@@ -19,12 +19,13 @@ constexpr const char* kNoRayDataMemory = "no memory for the update's ray data; u
 class Averaging {
 public:
     explicit Averaging(FieldControl::Impl& books)
-        : m_books(books), m_tasks(std::move(books.tasks)), m_list(books.taskList) {
-        books.setAllTasks();
-        books.setAveraging(true);
+        : m_books(books), m_tasks(allTasks(books.desc)), m_list(books.taskList) {
+        std::swap(m_books.tasks, m_tasks);
+        m_books.taskList = 0;
+        m_books.setAveraging(true);
     }
     ~Averaging() {
-        m_books.tasks = std::move(m_tasks);
+        std::swap(m_books.tasks, m_tasks);
         m_books.taskList = m_list;
         m_books.setAveraging(false);
     }

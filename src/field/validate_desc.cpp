@@ -39,7 +39,7 @@ Result<void> checkDistance(const std::string& name, const VolumeDesc& volume) {
 }
 
 Result<void> checkOrientation(const std::string& name, const glm::quat& q) {
-    constexpr float kTolerance = 1e-4f;
+    constexpr float kTolerance = 1e-5f;
     const float square = glm::dot(q, q);
     if (std::abs(square - 1.0f) <= kTolerance) return {};
     return fail(ErrorCode::invalidArgument, sentence(name, ".orientation is not a unit quaternion; normalise it"));

@@ -28,7 +28,8 @@ PathGuide::PathGuide(const VolumeDesc& grid) : m_grid(grid) {
 }
 
 std::size_t PathGuide::regionOf(glm::vec3 position, glm::vec3 normal) const noexcept {
-    const glm::vec3 cell = glm::floor((position - m_grid.origin) / m_grid.spacing);
+    const glm::vec3 offset = glm::conjugate(m_grid.orientation) * (position - m_grid.origin);
+    const glm::vec3 cell = glm::floor(offset / m_grid.spacing);
     const glm::ivec3 c(glm::clamp(cell, glm::vec3(0.0f), glm::vec3(m_grid.counts - 1)));
     return std::size_t(c.x + m_grid.counts.x * (c.y + m_grid.counts.y * c.z)) * kFacings +
            std::size_t(facingOf(normal));

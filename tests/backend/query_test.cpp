@@ -70,6 +70,16 @@ TEST_P(BackendQuery, answersAreTheCpus) {
     }
 }
 
+TEST_P(BackendQuery, aGuardThatIsNotThereGuardsNothing) {
+    Field field = makeField(smallDesc());
+    ASSERT_TRUE(field.update(randomData(field.desc(), 6)));
+    const auto queries = randomQueries(200);
+    changeSettings(field, [](FieldSettings& s) { s.guard = LeakGuard{100}; });
+    const auto unknown = ask(field, queries);
+    changeSettings(field, [](FieldSettings& s) { s.guard = LeakGuard::none; });
+    EXPECT_EQ(ask(field, queries), unknown);
+}
+
 // A point between probes that stand in walls, or far from all that see it: the wider search answers.
 TEST_P(BackendQuery, fallbackAnswersAreTheCpus) {
     for (const LeakGuard guard : {LeakGuard::none, LeakGuard::moments}) {

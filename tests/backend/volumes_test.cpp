@@ -68,7 +68,9 @@ TEST_P(BackendVolumes, twoVolumesWithOneBatchOfRaysAreTwoFields) {
             glm::all(glm::lessThan(q.position, v.origin + v.spacing * glm::vec3(v.counts - 1))))
             inFirst.push_back(q);
     ASSERT_GT(inFirst.size(), 20u);
-    EXPECT_EQ(ask(a, inFirst), ask(together, inFirst));
+    // (A GPU's filter may round differently in an atlas of another size.)
+    const auto alone = ask(a, inFirst), among = ask(together, inFirst);
+    for (std::size_t i = 0; i < inFirst.size(); ++i) EXPECT_NEAR(among[i].x, alone[i].x, 1e-4f * alone[i].x) << i;
 }
 
 TEST_P(BackendVolumes, answersAreTheCpus) {
@@ -161,23 +163,69 @@ TEST_P(BackendVolumes, chosenProbesFollowAndOthersStand) {
     }
 }
 
-// The update's own rays begin at the probes of every volume, wherever they are and however they are turned.
-TEST_P(BackendVolumes, tracesEveryVolume) {
-    const Scene scene = *makeBuiltinScene("furnace", {.albedo = 0.5f, .emission = 1});
-    const ScenePose pose = poseAt(scene);
-    const auto tracer = makeTracer(scene, pose);
-    const glm::vec3 size = pose.bounds.size(), middle = pose.bounds.centre();
-    VolumeDesc low{.origin = pose.bounds.lower + 0.1f * size, .spacing = 0.2f * size, .counts = {3, 3, 3}};
-    VolumeDesc turned{.origin = middle, .spacing = 0.1f * size, .counts = {3, 3, 3}};
-    turned.orientation = glm::angleAxis(0.4f, glm::vec3(0, 1, 0));
-    FieldSetup setup = withVolumes({low, turned});
-    setup.raysPerProbe = 32;
-    Field field = makeField(setup);
-    const Lighting dark;
-    for (int i = 0; i < 30; ++i) ASSERT_TRUE(field.update(*tracer, dark));
-    for (int slot = 0; slot < probeCount(setup); ++slot)
-        for (const glm::vec3 n : {glm::vec3(1, 0, 0), glm::vec3(0, -1, 0)})
-            EXPECT_NEAR(field.probeIrradiance(slot, n).x, 2 * kPi, 0.06f * kPi) << slot;
+// A room with a lamp and two volumes in it, one of them turned.
+struct TracedVolumes {
+    explicit TracedVolumes(FieldRules rules)
+        : scene(*makeBuiltinScene("cornell")), pose(poseAt(scene)), lighting{pose.lights, scene.sky} {
+        const glm::vec3 size = pose.bounds.size();
+        low = {.origin = pose.bounds.lower + 0.11f * size, .spacing = 0.21f * size, .counts = {4, 3, 4}};
+        turned = {.origin = pose.bounds.centre(), .spacing = 0.09f * size, .counts = {3, 4, 3}};
+        turned.orientation = glm::angleAxis(0.5f, glm::normalize(glm::vec3(0.3f, 1, 0.2f)));
+        both = withVolumes({low, turned});
+        both.rules = rules;
+        both.raysPerProbe = 48;
+    }
+    FieldSetup only(const VolumeDesc& volume) const {
+        FieldSetup setup = both;
+        setup.volumes = {volume};
+        return setup;
+    }
+
+    Scene scene;
+    ScenePose pose;
+    Lighting lighting;
+    VolumeDesc low, turned;
+    FieldSetup both;
+};
+
+// The library's own rays, looks at emitters included: the first update has no bounces, by which volumes would meet.
+TEST_P(BackendVolumes, tracesEachVolumeAsIfItWereAlone) {
+    const TracedVolumes s(FieldRules::measured);
+    const auto tracer = makeTracer(s.scene, s.pose);
+    Field a = makeField(s.only(s.low)), b = makeField(s.only(s.turned)), together = makeField(s.both);
+    for (Field* f : {&a, &b, &together}) ASSERT_TRUE(f->update(*tracer, s.lighting));
+    const int ofA = probeCount(s.low);
+    for (int probe = 0; probe < ofA; ++probe) EXPECT_TRUE(sameProbe(a, probe, together, probe)) << probe;
+    for (int probe = 0; probe < probeCount(s.turned); ++probe)
+        EXPECT_TRUE(sameProbe(b, probe, together, ofA + probe)) << probe;
+}
+
+TEST_P(BackendVolumes, tracesChosenProbesAndConvergesAll) {
+    const TracedVolumes s(FieldRules::paper);
+    const auto tracer = makeTracer(s.scene, s.pose);
+    Field field = makeField(s.both), whole = makeField(s.both), black = makeField(s.both);
+    const std::vector<std::uint32_t> slots{40, 3, 50, 17, 61};
+    ASSERT_TRUE(field.control().setTasks(slots));
+    ASSERT_TRUE(field.update(*tracer, s.lighting));
+    ASSERT_TRUE(whole.update(*tracer, s.lighting));
+    const auto isChosen = [&](int slot) { return std::count(slots.begin(), slots.end(), std::uint32_t(slot)) > 0; };
+    for (int slot = 0; slot < probeCount(s.both); ++slot)
+        EXPECT_TRUE(sameProbe(field, slot, isChosen(slot) ? whole : black, slot)) << slot;
+    // An average is about all probes; afterwards the chosen ones are updated again, and no others.
+    ASSERT_TRUE(field.converge(*tracer, s.lighting, 1e-6f, 6));
+    for (int slot = 0; slot < probeCount(s.both); ++slot) EXPECT_FALSE(sameProbe(field, slot, black, slot)) << slot;
+    ASSERT_EQ(field.control().tasks().size(), slots.size());
+    const glm::vec3 up(0, 1, 0);
+    std::vector<float> before;
+    for (int slot = 0; slot < probeCount(s.both); ++slot) before.push_back(field.probeIrradiance(slot, up).x);
+    ASSERT_TRUE(field.update(*tracer, s.lighting));
+    int moved = 0;
+    for (int slot = 0; slot < probeCount(s.both); ++slot) {
+        const bool same = field.probeIrradiance(slot, up).x == before[std::size_t(slot)];
+        if (!isChosen(slot)) EXPECT_TRUE(same) << slot;
+        moved += same ? 0 : 1;
+    }
+    EXPECT_GE(moved, 3) << "of five; one may stand where nothing changes upwards";
 }
 
 }  // namespace

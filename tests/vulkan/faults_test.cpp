@@ -324,6 +324,18 @@ TEST_F(VulkanFaults, theGuardOfAFailedQueryIsNotForgotten) {
     EXPECT_TRUE(std::isnan(field->irradiance(world.query()).x));
     hooks().failCall(0, VK_SUCCESS);
     EXPECT_EQ(field->irradiance(world.query()), other->irradiance(world.query()));
+    // Nor those of a picture that failed.
+    for (Field* f : {&*field, &*other}) changeSettings(*f, [&](FieldSettings& s) { s.guard = LeakGuard::moments; });
+    PictureDesc picture;
+    picture.camera = world.pose.cameras.front();
+    picture.width = picture.height = 8;
+    hooks().failCall(1, VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkQueueSubmit");
+    int refused = 0;
+    for (int call = 0; call < 3 && refused == 0; ++call)
+        refused += vulkan::renderPicture(log, device, **tracer, world.lighting, &*field, picture) ? 0 : 1;
+    EXPECT_EQ(refused, 1);
+    hooks().failCall(0, VK_SUCCESS);
+    EXPECT_EQ(field->irradiance(world.query()), other->irradiance(world.query()));
 }
 
 }  // namespace probegi::test

@@ -44,8 +44,9 @@ Image makeAtlas(const Device& device, const char* name, vk::Format format, const
 FieldLayout checkedLayout(const FieldDesc& desc) {
     const FieldLayout layout(desc);
     constexpr std::size_t kMost = std::size_t(std::numeric_limits<std::int32_t>::max());
-    if (layout.probes * layout.rays > kMost)
-        throw Failure(ErrorCode::unsupported, sentence(layout.probes, " probes with ", layout.rays,
+    const std::size_t rays = layout.rays + std::size_t(desc.fixedRays);
+    if (layout.probes * rays > kMost)
+        throw Failure(ErrorCode::unsupported, sentence(layout.probes, " probes with ", rays,
                                                        " rays each are more rays than the GPU backend counts, ", kMost,
                                                        "; use fewer probes or raysPerProbe"));
     return layout;
@@ -186,6 +187,7 @@ void FieldPasses::recordClear(const Recorder& recorder, const FieldSettings& set
     recorder.fill(m_filters, 0);
     recorder.fill(m_sides, 0);
     m_recordedSettings = settings;
+    m_recordedTasks.reset();
     recorder.write(m_constants, bytesOf(constants(settings)));
     recorder.orderAll();
 }
@@ -219,7 +221,7 @@ void FieldPasses::recordTasks(const Recorder& recorder, const UpdateFrame& frame
         }
     }
     recorder.dispatch("count_tasks", 1);
-    if (!frame.whole()) recorder.fill(m_steps, 0);  // no lag of probes that stand still
+    if (frame.windows && !frame.whole()) recorder.fill(m_steps, 0);  // no lag of probes that are not updated
     recorder.transferToCompute();
     recorder.computeToDispatch();
 }

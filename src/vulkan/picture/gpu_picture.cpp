@@ -120,7 +120,7 @@ GpuLighting uploadedLighting(const Device& device, const Lighting& lighting) {
 Result<RenderedPicture> renderPicture(const Context& context, const Device& device, const Tracer& tracer,
                                       const Lighting& lighting, const Field* field, const PictureDesc& desc) {
     if (auto ok = validatePictureDesc(desc); !ok) return ok.error();
-    return guarded("rendering", [&] {
+    auto result = guarded("rendering", [&] {
         const auto start = std::chrono::steady_clock::now();
         const GpuTracer& gpuTracer = onDevice<GpuTracer>(device, tracer, "tracer");
         const GpuLighting lights = uploadedLighting(device, lighting);
@@ -136,6 +136,9 @@ Result<RenderedPicture> renderPicture(const Context& context, const Device& devi
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return rendered;
     });
+    const auto* onGpu = field ? dynamic_cast<const VulkanField*>(&backendOf(*field)) : nullptr;
+    if (!result && onGpu) onGpu->passes().forgetRecorded();
+    return result;
 }
 
 Result<std::vector<std::uint8_t>> toneMapImage(const Device& device, const HdrImage& image, const ToneMap& toneMap) {

@@ -46,7 +46,7 @@ Result<void> recordShading(VkCommandBuffer commands, const GpuScene& scene, cons
     FieldPasses* passes = field ? &field->impl().passes : nullptr;
     if (&lighting.impl().device.impl() != &device.impl() || (passes && &passes->device().impl() != &device.impl()))
         return fail(ErrorCode::invalidArgument, "scene, lighting and field are not of one device");
-    return guarded("recording shading", [&] {
+    const auto done = guarded("recording shading", [&] {
         const Recorder recorder(device.impl(), commands);
         if (passes) passes->recordSettings(recorder, field->control().settings());
         kernels::PicturePush push{};
@@ -56,6 +56,8 @@ Result<void> recordShading(VkCommandBuffer commands, const GpuScene& scene, cons
         push.flags = diffuseOnly ? kernels::kPictureDiffuseOnly : 0;
         recordSampleShading(recorder, device, scene, passes, push, profiler);
     });
+    if (!done && passes) passes->forgetRecorded();
+    return done;
 }
 
 Result<void> recordToneMap(VkCommandBuffer commands, const Device& device, VkDeviceAddress linear,
