@@ -222,7 +222,7 @@ TEST_P(BackendVolumes, tracesChosenProbesAndConvergesAll) {
     int moved = 0;
     for (int slot = 0; slot < probeCount(s.both); ++slot) {
         const bool same = field.probeIrradiance(slot, up).x == before[std::size_t(slot)];
-        if (!isChosen(slot)) EXPECT_TRUE(same) << slot;
+        EXPECT_TRUE(same || isChosen(slot)) << slot;
         moved += same ? 0 : 1;
     }
     EXPECT_GE(moved, 3) << "of five; one may stand where nothing changes upwards";
