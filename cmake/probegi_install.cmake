@@ -17,7 +17,7 @@ endif()
 # A header whose library was left out is left out as well.
 set(without "")
 if(NOT PROBEGI_VULKAN)
-    list(APPEND without PATTERN vulkan.h EXCLUDE)
+    list(APPEND without PATTERN vulkan.h EXCLUDE PATTERN vulkan EXCLUDE)
 endif()
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/probegi)

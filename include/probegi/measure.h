@@ -85,7 +85,7 @@ struct LeakInputs {
 };
 
 /// Where a picture's indirect light is not the reference's, in square tiles that are wide enough for the reference's
-/// noise to average out. Why there is too much light it does not know: whether it came through a wall, or a shadow is
+/// noise to average out. It cannot tell why there is too much light: it may have come through a wall, or a shadow is
 /// finer than the probes' spacing.
 struct LeakMap {
     HdrImage picture;     ///< display values as linear ones: the scene dimmed, red where it has too much light, blue

@@ -30,7 +30,7 @@ inline int emitterLooks(const FieldDesc& desc) noexcept {
 /// The search of an update; empty if the tracer has no emitters. `frameSeed`: UpdateFrame::ditherSeed.
 EmitterSearch emitterSearch(const FieldDesc& desc, const Tracer& tracer, std::uint32_t frameSeed);
 
-/// What the looks of the tasks' probes bring home, as [task][look], on the context's threads. The search must not be
+/// Emitter samples of the tasks' probes, as [task][look], on the context's threads. The search must not be
 /// empty. Errors: those of the tracer.
 Result<void> lookAtEmitters(const Context& context, const FieldDesc& desc, std::span<const ProbeTask> tasks,
                             const EmitterSearch& search, const Tracer& tracer, std::span<kernels::EmitterLight> out,

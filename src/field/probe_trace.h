@@ -25,7 +25,7 @@ struct ProbeRayDirections {
     std::span<const glm::vec3> fixed;   ///< of the rays that measure lag; may be empty
 };
 
-/// What they bring home: [task][ray] of each kind.
+/// Their results: [task][ray] of each kind.
 struct ProbeRayData {
     std::span<RayDatum> update;
     std::span<FixedRayDatum> fixed;

@@ -6,7 +6,7 @@
 
 PROBEGI_SHARED_BEGIN
 
-/// What one ray of one probe brought home. This is the seam for engines with a ray tracer of their own.
+/// The result of one ray of one probe. This is the seam for engines with a ray tracer of their own.
 /// Where the ray met the back of a surface, as its winding has it, `distance` is negative. A single-sided surface is
 /// solid wall from there: a backface, whose radiance does not count. What a surface with two sides sends from its back
 /// counts, and comes negative too (a black one: -1e-30): a probe that sees mostly backs may stand in a wall, whatever
@@ -18,7 +18,7 @@ struct RayDatum {
     float distance PROBEGI_DEFAULT(0.0f);
 };
 
-/// What one fixed ray of one probe brought home: the sum of both lights is what a RayDatum of that direction holds.
+/// The result of one fixed ray of one probe: both lights add up to what a RayDatum of that direction holds.
 struct FixedRayDatum {
     /// Luminance of light from lights, emission and sky, W sr^-1 m^-2; not in 0..1e30: counts as 0.
     float direct PROBEGI_DEFAULT(0);

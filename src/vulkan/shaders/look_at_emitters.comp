@@ -1,4 +1,4 @@
-// What the probes' looks at emitters bring home, the steps of src/field/probe_emitters.cpp: choose a point, trace
+// The probes' emitter samples, the steps of src/field/probe_emitters.cpp: choose a point, trace
 // towards it, see what it sends. Neighbouring threads take the same look of neighbouring probes.
 // variants: tracers
 #include "emitter_lights.glsl"

@@ -1,4 +1,4 @@
-// What the rays of all probes bring home: sky, emission, punctual lights with shadow rays, and the light of earlier
+// Light along the rays of the tasks: sky, emission, punctual lights with shadow rays, and the light of earlier
 // bounces from last frame's field (DDGI paper, section 2.3).
 // variants: tracers
 #include "direct_light.glsl"
@@ -16,7 +16,7 @@ layout(push_constant, scalar) uniform Push {
     TracePush push;
 };
 
-// What a ray brings home: the light of lights, emission and sky, and the light by way of the field.
+// Light along a ray: that of lights, emission and sky, and the light by way of the field.
 struct RayLight {
     vec3 direct;
     vec3 bounced;
