@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "probegi/export.h"
-#include "probegi/volume.h"
 #include "probegi/image.h"
 #include "probegi/result.h"
+#include "probegi/volume.h"
 
 namespace probegi {
 
@@ -143,7 +143,7 @@ struct Scene {
     std::vector<AnimationChannel> animations{};
     Sky sky{};
     std::optional<VolumeDesc> grid{};  ///< a probe grid that came with the scene; empty: placed automatically
-    float exposure = 1.0f;           ///< suggested tone-map exposure for pictures of this scene
+    float exposure = 1.0f;             ///< suggested tone-map exposure for pictures of this scene
     /// Position of this scene's (0, 0, 0) in the coordinates of its file, metres. Nonzero only if loadScene() moved a
     /// scene that was far from the origin.
     glm::vec3 origin{0.0f};

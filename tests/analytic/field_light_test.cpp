@@ -42,8 +42,7 @@ TEST(FieldLight, openPlaneSeesTheWholeSky) {
 TEST(FieldLight, integratingSphere) {
     for (const float albedo : {0.3f, 0.5f, 0.8f}) {
         const BuiltinParams params{.albedo = albedo, .power = 50, .radius = 1.5f};
-        test::FieldScene s("sphere", params, {.counts = {8, 8, 8}},
-                           test::FieldSetup({}, {.hysteresis = 0.9f}));
+        test::FieldScene s("sphere", params, {.counts = {8, 8, 8}}, test::FieldSetup({}, {.hysteresis = 0.9f}));
         s.run(int(50 / (1 - albedo)));
         const double expected = 50 * albedo / (4 * kPi * 1.5 * 1.5 * (1 - albedo));
         double mean = 0;

@@ -78,8 +78,8 @@ void store(GpuTask task, int texel, vec3 newMean, inout TexelChange change) {
         addTexelChange(change, old, newMean);
     }
     const BlendRule rule = BlendRule(kept, push.significantChange, push.newDistribution);
-    const uvec3 bits =
-        blendIrradianceTexel(old, newMean, rule, push.linear != 0, push.ditherSeed, number * uint(size * size) + uint(texel));
+    const uvec3 bits = blendIrradianceTexel(old, newMean, rule, push.linear != 0, push.ditherSeed,
+                                            number * uint(size * size) + uint(texel));
     // Exact in the image's halves: they were rounded already, with the dither.
     const vec4 stored = vec4(unpackHalf(bits.x), unpackHalf(bits.y), unpackHalf(bits.z), 0.0);
     imageStore(irradianceImage, ivec3(tile + at, place.z), stored);

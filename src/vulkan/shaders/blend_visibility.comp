@@ -7,8 +7,8 @@
 #include "volume.glsl"
 
 #include "kernels/abi/gpu_passes.h"
-#include "kernels/probe/octahedral_texel.h"
 #include "kernels/blend/probe_blend.h"
+#include "kernels/probe/octahedral_texel.h"
 #include "kernels/probe/probe_texel.h"
 
 layout(push_constant, scalar) uniform Push {

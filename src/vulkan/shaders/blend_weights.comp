@@ -4,9 +4,9 @@
 #include "common.glsl"
 
 #include "kernels/abi/gpu_passes.h"
-#include "kernels/probe/octahedral_texel.h"
 #include "kernels/blend/probe_blend.h"
 #include "kernels/lookup/probe_query.h"
+#include "kernels/probe/octahedral_texel.h"
 
 layout(push_constant, scalar) uniform Push {
     WeightsPush push;

@@ -1,4 +1,5 @@
-// The temporal filter's buffers (kernels/blend/temporal_filter.h), for the passes around a blend and the blends themselves.
+// The temporal filter's buffers (kernels/blend/temporal_filter.h), for the passes around a blend and the blends
+// themselves.
 #ifndef PROBEGI_FILTER_GLSL
 #define PROBEGI_FILTER_GLSL
 

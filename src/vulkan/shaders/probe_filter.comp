@@ -28,7 +28,8 @@ void main() {
     const uint number = probe - uint(probegiField.volumes[task.volume].firstSlot);
     ProbeFilter probeFilter = unpackFilter(ProbeFilters(push.filters).at[probe]);
     const float lag = ProbeSteps(push.steps).at[probe].lagShare;
-    probeFilter.noise = nextNoise(probeFilter.noise, changeOf(index, tasks), lag, probeFilter.window, isUnknown(probeFilter));
+    probeFilter.noise =
+        nextNoise(probeFilter.noise, changeOf(index, tasks), lag, probeFilter.window, isUnknown(probeFilter));
     advanceFilter(probeFilter, ProbeSteps(push.steps).at[probe].sight);
     ProbeFilters(push.filters).at[probe] = packFilter(probeFilter, storageDither(push.ditherSeed, number));
 }

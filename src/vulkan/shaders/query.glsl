@@ -133,8 +133,7 @@ vec2 probegiMoments(int slot, vec3 direction) {
 int probegiVolumeAt(vec3 point) {
     if (probegiField.volumeCount == 1) return 0;
     VolumeChoice choice = noVolume();
-    for (int i = 0; i < probegiField.volumeCount; ++i)
-        choice = chooseVolume(choice, probegiField.volumes[i], i, point);
+    for (int i = 0; i < probegiField.volumeCount; ++i) choice = chooseVolume(choice, probegiField.volumes[i], i, point);
     return choice.volume;
 }
 
