@@ -97,7 +97,7 @@ void directLoop(benchmark::State& state) {
         for (std::size_t probe = 0; probe < field.layout().probes; ++probe) {
             const auto data = field.rayData().subspan(probe * directions.size(), directions.size());
             const auto moments = [&](std::size_t ray) {
-                const float d = kernels::visibilityDistance(data[ray].distance, maxDistance(desc.volumes[0]));
+                const float d = kernels::visibilityDistance(data[ray].distance, visibilityRange(desc.volumes[0]));
                 return glm::vec2(d, d * d);
             };
             directMeans(directions, desc.irradianceTexels, std::span(irradiance), cosine,

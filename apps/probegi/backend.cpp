@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "console/parse.h"
-#include "vulkan_backend.h"
+#include "vulkan_device.h"
 
 namespace probegi::tool {
 
@@ -11,33 +11,13 @@ namespace {
 
 constexpr const char* kDeviceOptions[] = {"--device", "--tracer", "--shader-cache"};
 
-class CpuBackend final : public Backend {
-public:
-    explicit CpuBackend(Context context) : m_context(std::move(context)) {}
-
-    BackendKind kind() const noexcept override { return BackendKind::cpu; }
-    Result<std::unique_ptr<Tracer>> makeTracer(const Scene& scene, const ScenePose& pose) const override {
-        return makeEmbreeTracer(m_context, scene, pose);
-    }
-    Result<Field> makeField(const FieldDesc& desc, const FieldSettings& settings) const override {
-        return Field::create(m_context, desc, settings);
-    }
-    Result<RenderedPicture> render(const Tracer& tracer, const Lighting& lighting, const Field* field,
-                                   const PictureDesc& desc) const override {
-        return renderPicture(m_context, tracer, lighting, field, desc);
-    }
-
-private:
-    Context m_context;
-};
-
 }  // namespace
 
 void addBackendOptions(CLI::App& command, BackendOptions& options) {
     constexpr const char* kGroup = "Backend";
     static const std::map<std::string, BackendKind> kKinds{{"cpu", BackendKind::cpu}, {"vulkan", BackendKind::vulkan}};
-    static const std::map<std::string, GpuTracer> kTracers{
-        {"auto", GpuTracer::automatic}, {"bvh", GpuTracer::bvh}, {"ray-query", GpuTracer::rayQuery}};
+    static const std::map<std::string, TracerKind> kTracers{
+        {"auto", TracerKind::automatic}, {"bvh", TracerKind::bvh}, {"ray-query", TracerKind::rayQuery}};
     command.add_option("--backend", options.kind, "where the passes run (default: cpu); the light is the same")
         ->type_name("cpu|vulkan")
         ->transform(oneOf(kKinds))
@@ -69,8 +49,14 @@ void checkBackendOptions(const CLI::App& command, const BackendOptions& options)
 }
 
 Result<std::unique_ptr<Backend>> openBackend(const Context& context, const BackendOptions& options) {
-    if (options.kind == BackendKind::vulkan) return openVulkanBackend(context, options);
-    return std::make_unique<CpuBackend>(context);
+    if (options.kind == BackendKind::cpu) return probegi::openBackend(context);
+#if PROBEGI_HAS_VULKAN
+    const auto device = openDevice(context, options);
+    if (!device) return device.error();
+    return vulkan::makeBackend(context, *device, options.tracer);
+#else
+    return builtWithoutVulkan();
+#endif
 }
 
 std::filesystem::path shaderCacheFolder(const BackendOptions& options) {

@@ -7,7 +7,7 @@
 #include "console/output.h"
 #include "console/terminal.h"
 #include "console/text_table.h"
-#include "vulkan_backend.h"
+#include "vulkan_device.h"
 
 namespace probegi::tool {
 

@@ -85,7 +85,10 @@ Result<Picture> renderWithField(const Context&, const Backend& backend, const Tr
                                 const RenderOptions& options, RenderStats& stats) {
     const auto field = makeField(backend, tracer, setup, options, stats);
     if (!field) return field.error();
-    auto rendered = backend.render(tracer, setup.lighting, *field ? &**field : nullptr, pictureDesc(options, setup));
+    const auto renderer = backend.makeRenderer();
+    if (!renderer) return renderer.error();
+    auto rendered =
+        (*renderer)->render(tracer, setup.lighting, *field ? &**field : nullptr, pictureDesc(options, setup));
     if (!rendered) return rendered.error();
     stats.pictureMs = rendered->times.total;
     return std::move(rendered->picture);
@@ -138,7 +141,7 @@ Result<void> render(const RenderOptions& options) {
     const auto setup = loadSetup(options.scene);
     if (!setup) return setup.error();
     if (auto apart = outputs.keepApartFrom(setup->files); !apart) return apart;
-    const auto tracer = (*backend)->makeTracer(*setup->scene, setup->pose);
+    const auto tracer = (*backend)->openScene(*setup->scene, setup->pose);
     if (!tracer) return tracer.error();
 
     RenderStats stats;

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -13,6 +12,7 @@
 #include "probegi/control.h"
 #include "probegi/export.h"
 #include "probegi/shared/field_data.h"
+#include "probegi/snapshot.h"
 #include "probegi/tracer.h"
 
 namespace probegi {
@@ -97,15 +97,17 @@ public:
     /// that wider neighbours answered: above a few per cent the grid is too coarse for the scene.
     std::uint64_t fallbackQueries() const noexcept;
 
-    /// Share of the hits of the probe in slot `probe` that were on backs and speak for solid matter, 0..1; above 0.3
-    /// the probe stands in a wall and is not used. Backs of surfaces with two sides do not count while a free line
-    /// leads from the probe, by way of its neighbours, to one that sees fronts.
-    float probeBackfaceShare(int probe) const noexcept;
+    /// What the probes store, all of them or those of some slots. Errors: invalidArgument (slots that are not there),
+    /// outOfMemory; of a field on a GPU also deviceLost.
+    Result<FieldSnapshot> read() const;
+    Result<FieldSnapshot> read(SlotRange slots) const;
 
-    /// What probe `probe` stores: E in W m^-2 for a surface facing `normal` at the probe itself.
-    glm::vec3 probeIrradiance(int probe, glm::vec3 normal) const noexcept;
-    /// Mean and mean square of the distance that probe `probe` stores in a direction, metres and square metres.
-    glm::vec2 probeDistanceMoments(int probe, glm::vec3 direction) const noexcept;
+    /// Replaces what the probes of the snapshot's slots store. With a snapshot of all slots the field goes on as the
+    /// snapshot's field would, from its frame and with its rays, where both have one FieldDesc; with one of fewer, from
+    /// the later of both frames. Events that were announced are forgotten. Excludes queries, as an update does. Errors:
+    /// invalidArgument (a snapshot of other volumes or maps, or of contents that no field stores), outOfMemory; of a
+    /// field on a GPU also deviceLost. The probes are then as they were.
+    Result<void> write(const FieldSnapshot& snapshot);
 
     struct Impl;
 

@@ -187,7 +187,7 @@ PROBEGI_API Result<ProbeTruth> traceProbeTruth(const Tracer& tracer, const PathT
                                                const VolumeDesc& grid, int maxProbes, int samples, bool diffuseOnly);
 
 /// Field over truth, probe by probe; the truth's grid must be the field's first volume. 1 is right.
-PROBEGI_API std::vector<double> probeRatios(const Field& field, const ProbeTruth& truth);
+PROBEGI_API std::vector<double> probeRatios(const FieldSnapshot& snapshot, const ProbeTruth& truth);
 
 // ---- A field in motion
 

@@ -1,6 +1,7 @@
 #pragma once
 
 /// Everything, in pipeline order.
+#include "probegi/backend.h"
 #include "probegi/builtin_scenes.h"
 #include "probegi/context.h"
 #include "probegi/field.h"
@@ -12,5 +13,6 @@
 #include "probegi/result.h"
 #include "probegi/scene.h"
 #include "probegi/shapes.h"
+#include "probegi/snapshot.h"
 #include "probegi/tracer.h"
 #include "probegi/volume.h"

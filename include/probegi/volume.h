@@ -13,6 +13,8 @@ struct VolumeDesc {
     glm::ivec3 counts{2};     ///< probes per axis, 2..1024, at most 2^24 in all volumes of a field
     /// Turns the lattice about its origin: a unit quaternion from the volume's axes to the world's.
     glm::quat orientation{1.0f, 0.0f, 0.0f, 0.0f};
+
+    bool operator==(const VolumeDesc&) const = default;
 };
 
 inline int probeCount(const VolumeDesc& v) {

@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "cpu/solid_probes.h"
 #include "field/probe_emitters.h"
+#include "field/snapshot.h"
 #include "kernels/probe/irradiance_decoding.h"
 #include "kernels/probe/storage.h"
 
@@ -131,18 +132,45 @@ glm::vec3 CpuField::irradiance(const FieldSettings& settings, const FieldQuery& 
     return result;
 }
 
-Result<std::vector<float>> CpuField::brightness() const {
-    std::vector<float> result(m_layout.probes);
+Result<ProbeLight> CpuField::light() const {
+    ProbeLight light{std::vector<float>(m_layout.probes), m_storage.backfaceShare};
     const std::size_t values = 3 * m_layout.irradianceTexels;
     parallelFor(m_context, m_layout.probes, 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t probe = begin; probe < end; ++probe) {
             float sum = 0;
             for (std::size_t v = 0; v < values; ++v)
                 sum += kernels::decodeIrradiance(kernels::unpackHalf(m_storage.irradiance[probe * values + v]));
-            result[probe] = sum / float(values);
+            light.brightness[probe] = sum / float(values);
         }
     });
-    return result;
+    return light;
+}
+
+Result<FieldSnapshot> CpuField::read(SlotRange slots) const {
+    FieldSnapshot snapshot = emptySnapshot(m_desc, slots);
+    const std::size_t first = std::size_t(slots.first);
+    std::copy_n(m_storage.irradiance.begin() + std::ptrdiff_t(first * 3 * m_layout.irradianceTexels),
+                snapshot.irradiance.size(), snapshot.irradiance.begin());
+    std::copy_n(m_storage.visibility.begin() + std::ptrdiff_t(first * m_layout.visibilityTexels),
+                snapshot.visibility.size(), snapshot.visibility.begin());
+    for (std::size_t i = 0; i < snapshot.states.size(); ++i)
+        snapshot.states[i] =
+            probeState(m_storage.backfaceShare[first + i], m_storage.sides[first + i], m_storage.filters[first + i]);
+    return snapshot;
+}
+
+Result<void> CpuField::write(const FieldSnapshot& snapshot) {
+    const std::size_t first = std::size_t(snapshot.slots.first);
+    std::copy(snapshot.irradiance.begin(), snapshot.irradiance.end(),
+              m_storage.irradiance.begin() + std::ptrdiff_t(first * 3 * m_layout.irradianceTexels));
+    std::copy(snapshot.visibility.begin(), snapshot.visibility.end(),
+              m_storage.visibility.begin() + std::ptrdiff_t(first * m_layout.visibilityTexels));
+    for (std::size_t i = 0; i < snapshot.states.size(); ++i) {
+        m_storage.backfaceShare[first + i] = snapshot.states[i].backfaceShare;
+        m_storage.sides[first + i] = sidesOf(snapshot.states[i]);
+        m_storage.filters[first + i] = filterOf(snapshot.states[i]);
+    }
+    return {};
 }
 
 FieldMemory CpuField::memory() const noexcept {
@@ -152,21 +180,6 @@ FieldMemory CpuField::memory() const noexcept {
                 bytes(m_irradianceTaps) + bytes(m_visibilityTaps) + sizeof(*this),
             bytes(m_rayData) + bytes(m_fixedRays) + bytes(m_emitterLights) + bytes(m_weights.irradiance) +
                 bytes(m_weights.visibility) + bytes(m_weights.evidence) + m_filter.bytes()};
-}
-
-float CpuField::probeBackfaceShare(int probe) const noexcept {
-    return m_storage.backfaceShare[std::size_t(probe)];
-}
-
-glm::vec3 CpuField::probeIrradiance(int probe, glm::vec3 normal) const noexcept {
-    const FieldSettings any;
-    return probegi::probeIrradiance(view(any), probe, normal);
-}
-
-glm::vec2 CpuField::probeDistanceMoments(int probe, glm::vec3 direction) const noexcept {
-    const FieldSettings any;
-    const float d = m_volumes[volumeOf(m_volumes, probe)].maxDistance;
-    return probeMoments(view(any), probe, direction) * glm::vec2(d, d * d);
 }
 
 }  // namespace probegi

@@ -21,13 +21,12 @@ public:
     Result<void> irradiance(const FieldSettings& settings, std::span<const FieldQuery> queries,
                             std::span<glm::vec3> out) const override;
     glm::vec3 irradiance(const FieldSettings& settings, const FieldQuery& query) const noexcept override;
-    Result<std::vector<float>> brightness() const override;
+    Result<ProbeLight> light() const override;
+    Result<FieldSnapshot> read(SlotRange slots) const override;
+    Result<void> write(const FieldSnapshot& snapshot) override;
 
     FieldMemory memory() const noexcept override;
     std::uint64_t fallbackQueries() const noexcept override { return m_fallbacks.load(); }
-    float probeBackfaceShare(int probe) const noexcept override;
-    glm::vec3 probeIrradiance(int probe, glm::vec3 normal) const noexcept override;
-    glm::vec2 probeDistanceMoments(int probe, glm::vec3 direction) const noexcept override;
 
 private:
     FieldView view(const FieldSettings& settings) const noexcept;

@@ -113,6 +113,20 @@ void FieldControl::Impl::restart() {
     turnRays();
 }
 
+void FieldControl::Impl::describe(FieldSnapshot& snapshot) const noexcept {
+    snapshot.frame = frame;
+    snapshot.rayTurns = turns;
+}
+
+void FieldControl::Impl::goOnFrom(const FieldSnapshot& snapshot) {
+    events = {};
+    const bool whole = snapshot.slots.count == probeCount(desc);
+    if (!whole && snapshot.frame <= frame) return;
+    frame = snapshot.frame;
+    turns = snapshot.rayTurns;
+    turnRays();
+}
+
 FieldControl makeFieldControl(const FieldDesc& desc, const FieldSettings& settings) {
     return FieldControl(std::make_unique<FieldControl::Impl>(desc, settings));
 }

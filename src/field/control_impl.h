@@ -5,6 +5,7 @@
 
 #include "field/update_frame.h"
 #include "probegi/control.h"
+#include "probegi/snapshot.h"
 
 namespace probegi {
 
@@ -28,6 +29,10 @@ struct FieldControl::Impl {
     void advance(bool turn = true);
     /// Back to frame 0, for probes that were cleared. Desc, settings and tasks stay.
     void restart();
+    /// Fills in what a snapshot says of the books.
+    void describe(FieldSnapshot& snapshot) const noexcept;
+    /// After the probes were written: Field::write.
+    void goOnFrom(const FieldSnapshot& snapshot);
     std::size_t bytes() const noexcept;
     std::size_t rayCount() const noexcept { return tasks.size() * directions.size(); }
     std::size_t fixedRayCount() const noexcept { return tasks.size() * fixedDirections.size(); }

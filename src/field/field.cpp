@@ -8,6 +8,7 @@
 #include "field/control_impl.h"
 #include "field/convergence.h"
 #include "field/field_backend.h"
+#include "field/snapshot.h"
 
 namespace probegi {
 
@@ -58,12 +59,9 @@ struct Field::Impl {
             convergence.advance({}, {});
             return {};
         }
-        const auto brightness = backend->brightness();
-        if (!brightness) return brightness.error();
-        std::vector<float> backfaceShares(brightness->size());
-        for (std::size_t probe = 0; probe < backfaceShares.size(); ++probe)
-            backfaceShares[probe] = backend->probeBackfaceShare(int(probe));
-        convergence.advance(*brightness, backfaceShares);
+        const auto light = backend->light();
+        if (!light) return light.error();
+        convergence.advance(light->brightness, light->backfaceShares);
         return {};
     }
 
@@ -168,16 +166,26 @@ Result<void> Field::irradiance(std::span<const FieldQuery> queries, std::span<gl
     return fail(ErrorCode::outOfMemory, "no memory for this many queries; ask for fewer at a time");
 }
 
-float Field::probeBackfaceShare(int probe) const noexcept {
-    return m_impl->backend->probeBackfaceShare(probe);
+Result<FieldSnapshot> Field::read() const {
+    return read({0, probeCount(desc())});
 }
 
-glm::vec3 Field::probeIrradiance(int probe, glm::vec3 normal) const noexcept {
-    return m_impl->backend->probeIrradiance(probe, normal);
+Result<FieldSnapshot> Field::read(SlotRange slots) const try {
+    if (auto ok = validateSlots(desc(), slots); !ok) return ok.error();
+    auto snapshot = m_impl->backend->read(slots);
+    if (snapshot) m_impl->books().describe(*snapshot);
+    return snapshot;
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, sentence("no memory for a snapshot of ", slots.count, " probes"));
 }
 
-glm::vec2 Field::probeDistanceMoments(int probe, glm::vec3 direction) const noexcept {
-    return m_impl->backend->probeDistanceMoments(probe, direction);
+Result<void> Field::write(const FieldSnapshot& snapshot) try {
+    if (auto ok = validateSnapshot(desc(), snapshot); !ok) return ok;
+    if (auto written = m_impl->backend->write(snapshot); !written) return written;
+    m_impl->books().goOnFrom(snapshot);
+    return {};
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, "no memory to write the snapshot");
 }
 
 }  // namespace probegi

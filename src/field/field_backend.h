@@ -4,6 +4,12 @@
 
 namespace probegi {
 
+/// What Field::converge wants to know of every probe after an update.
+struct ProbeLight {
+    std::vector<float> brightness;      ///< mean stored radiance over directions and channels
+    std::vector<float> backfaceShares;  ///< ProbeState::backfaceShare
+};
+
 /// The third axis of the pipeline: where a field's passes run and where its probes lie. FieldControl keeps the
 /// books (probes, directions, hysteresis) and calls one of these. One thread updates at a time; queries may be
 /// concurrent with each other. Functions that return a Result may throw std::bad_alloc, which Field turns into an
@@ -23,14 +29,14 @@ public:
                                     std::span<glm::vec3> out) const = 0;
     /// The same for one; not a number where the backend failed.
     virtual glm::vec3 irradiance(const FieldSettings& settings, const FieldQuery& query) const noexcept = 0;
-    /// Mean stored radiance of every probe over directions and channels.
-    virtual Result<std::vector<float>> brightness() const = 0;
+    virtual Result<ProbeLight> light() const = 0;
+
+    /// The slots and the snapshot were checked.
+    virtual Result<FieldSnapshot> read(SlotRange slots) const = 0;
+    virtual Result<void> write(const FieldSnapshot& snapshot) = 0;
 
     virtual FieldMemory memory() const noexcept = 0;
     virtual std::uint64_t fallbackQueries() const noexcept = 0;
-    virtual float probeBackfaceShare(int probe) const noexcept = 0;
-    virtual glm::vec3 probeIrradiance(int probe, glm::vec3 normal) const noexcept = 0;
-    virtual glm::vec2 probeDistanceMoments(int probe, glm::vec3 direction) const noexcept = 0;
 };
 
 /// A Field on a backend. The desc and settings must be valid.

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "probegi/snapshot.h"
+
 namespace probegi {
 
-float maxDistance(const VolumeDesc& volume) {
+float visibilityRange(const VolumeDesc& volume) noexcept {
     return kMaxDistanceInDiagonals * glm::length(volume.spacing);
 }
 
@@ -25,12 +27,12 @@ std::vector<kernels::Volume> makeVolumes(const FieldDesc& desc) {
                            .spacing = v.spacing,
                            .firstSlot = firstSlot,
                            .inverseSpacing = 1.0f / v.spacing,
-                           .inverseMaxDistance = 1.0f / maxDistance(v),
+                           .inverseMaxDistance = 1.0f / visibilityRange(v),
                            .counts = v.counts,
                            .turned = turned ? 1 : 0,
                            .orientation = {v.orientation.x, v.orientation.y, v.orientation.z, v.orientation.w},
                            .phase = glm::ivec3(0),
-                           .maxDistance = maxDistance(v)});
+                           .maxDistance = visibilityRange(v)});
         firstSlot += probeCount(v);
     }
     return volumes;

@@ -38,9 +38,6 @@ std::vector<kernels::Volume> makeVolumes(const FieldDesc& desc);
 /// Which volume has the probe in a slot.
 std::size_t volumeOf(std::span<const kernels::Volume> volumes, int slot);
 
-/// Farthest distance that a volume's probes store, metres; stored distances are fractions of it.
-float maxDistance(const VolumeDesc& volume);
-
 /// Check every member. Errors: invalidArgument.
 Result<void> validateFieldDesc(const FieldDesc& desc);
 Result<void> validateFieldSettings(const FieldSettings& settings);

@@ -114,11 +114,11 @@ Result<ProbeTruth> traceProbeTruth(const Tracer& tracer, const PathTracer& pathT
     });
 }
 
-std::vector<double> probeRatios(const Field& field, const ProbeTruth& truth) {
+std::vector<double> probeRatios(const FieldSnapshot& snapshot, const ProbeTruth& truth) {
     std::vector<double> ratios;
     for (const ProbeTruth::Probe& probe : truth.probes) {
         double irradiance = 0;
-        for (const glm::vec3& axis : kAxes) irradiance += luminance(field.probeIrradiance(probe.index, axis));
+        for (const glm::vec3& axis : kAxes) irradiance += luminance(snapshot.probeIrradiance(probe.index, axis));
         ratios.push_back(irradiance / probe.irradiance);
     }
     return ratios;

@@ -12,7 +12,7 @@ void expectMedianNearOne(const test::FieldScene& s, int probes, int samples, dou
     const PathTracer reference = std::move(*PathTracer::create(s.context, s.scene, s.pose, *s.tracer, s.lighting));
     const auto truth = traceProbeTruth(*s.tracer, reference, s.field.desc().volumes[0], probes, samples, true);
     ASSERT_TRUE(truth) << truth.error().message;
-    const std::vector<double> ratios = probeRatios(s.field, *truth);
+    const std::vector<double> ratios = probeRatios(*s.field.read(), *truth);
     ASSERT_GE(ratios.size(), 20u);
     const double median = percentiles(ratios).median;
     testing::Test::RecordProperty("probes", std::to_string(ratios.size()));

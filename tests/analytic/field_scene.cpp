@@ -6,6 +6,7 @@
 
 #include "kernels/random.h"
 #include "support/field_setup.h"
+#include "support/probes.h"
 
 namespace probegi::test {
 
@@ -52,7 +53,7 @@ std::vector<FieldQuery> FieldScene::surfaceQueries(int count, float mostBacks) c
         const float z = 2 * random() - 1, phi = 6.2831853f * random(), r = std::sqrt(1 - z * z);
         Ray ray;
         const int probe = int(random() * float(probeCount(grid)));
-        if (field.probeBackfaceShare(probe) > mostBacks) continue;
+        if (probeBackfaceShare(field, probe) > mostBacks) continue;
         ray.origin = probePosition(grid, probe);
         ray.direction = {r * std::cos(phi), r * std::sin(phi), z};
         Hit hit;

@@ -4,6 +4,7 @@
 
 #include "backend/every_backend.h"
 #include "support/field_setup.h"
+#include "support/probes.h"
 
 namespace probegi::test {
 namespace {
@@ -81,7 +82,7 @@ protected:
                 const glm::vec3 n = texelDirection(texel, size);
                 const double truth = polygonIrradiance(probePosition(field.desc().volumes[0], probe), n, polygon);
                 if (truth < 0) continue;
-                const glm::vec3 e = field.probeIrradiance(probe, n);
+                const glm::vec3 e = probeIrradiance(field, probe, n);
                 const double ratio = double(e.y) / (truth * double(kGlow.y));
                 squares += (ratio - 1) * (ratio - 1);
                 sum += double(e.y);
@@ -95,7 +96,7 @@ protected:
         float largest = 0;
         for (int probe = 0; probe < probeCount(field.desc()); ++probe)
             for (int texel = 0; texel < 64; ++texel)
-                largest = std::max(largest, field.probeIrradiance(probe, texelDirection(texel, 8)).x);
+                largest = std::max(largest, probeIrradiance(field, probe, texelDirection(texel, 8)).x);
         return largest;
     }
 };
@@ -189,7 +190,7 @@ TEST_P(BackendEmitters, furnaceStaysStill) {
     for (int frame = 0; frame < kFirst + kFrames; ++frame) {
         ASSERT_TRUE(field.update(*tracer, {pose.lights, scene.sky}));
         for (int probe = 0; frame >= kFirst && probe < 27; ++probe) {
-            const double e = double(field.probeIrradiance(probe, {0, 1, 0}).y) / 6.2831853;
+            const double e = double(probeIrradiance(field, probe, {0, 1, 0}).y) / 6.2831853;
             sum[std::size_t(probe)] += e / kFrames;
             squares[std::size_t(probe)] += e * e / kFrames;
         }
@@ -216,10 +217,10 @@ TEST_P(BackendEmitters, probesHoldWhatTheCpusHold) {
     double sum = 0, ownDifference = 0, embreeDifference = 0;
     for (int probe = 0; probe < probeCount(desc); ++probe)
         for (const glm::vec3 n : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, -1, 0), glm::vec3(0, 0, 1)}) {
-            const glm::vec3 wanted = reference.probeIrradiance(probe, n);
+            const glm::vec3 wanted = probeIrradiance(reference, probe, n);
             sum += double(wanted.y);
-            ownDifference += std::abs(double(onOwn.probeIrradiance(probe, n).y) - double(wanted.y));
-            embreeDifference += std::abs(double(onEmbree.probeIrradiance(probe, n).y) - double(wanted.y));
+            ownDifference += std::abs(double(probeIrradiance(onOwn, probe, n).y) - double(wanted.y));
+            embreeDifference += std::abs(double(probeIrradiance(onEmbree, probe, n).y) - double(wanted.y));
         }
     ASSERT_GT(sum, 1.0);
     EXPECT_LT(ownDifference, 2e-3 * sum);

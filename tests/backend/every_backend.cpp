@@ -6,6 +6,7 @@
 #include "kernels/probe/octahedral_texel.h"
 #include "kernels/random.h"
 #include "support/field_setup.h"
+#include "support/probes.h"
 
 namespace probegi::test {
 
@@ -61,7 +62,7 @@ glm::vec3 texelDirection(int texel, int size) {
 }
 
 float storedIrradiance(const Field& field, int probe, int texel, int channel) {
-    const glm::vec3 e = field.probeIrradiance(probe, texelDirection(texel, field.desc().irradianceTexels));
+    const glm::vec3 e = probeIrradiance(field, probe, texelDirection(texel, field.desc().irradianceTexels));
     return std::pow(e[channel] / kernels::kPi, 0.2f);
 }
 
@@ -77,7 +78,7 @@ void compareIrradiance(const Field& a, const Field& b, int probe, AtlasDifferenc
     const int size = a.desc().irradianceTexels;
     for (int texel = 0; texel < size * size; ++texel) {
         const glm::vec3 n = texelDirection(texel, size);
-        const glm::vec3 ea = a.probeIrradiance(probe, n), eb = b.probeIrradiance(probe, n);
+        const glm::vec3 ea = probeIrradiance(a, probe, n), eb = probeIrradiance(b, probe, n);
         for (int c = 0; c < 3; ++c) {
             const double steps = halfSteps(std::pow(ea[c] / kernels::kPi, 0.2f), std::pow(eb[c] / kernels::kPi, 0.2f));
             // A comparison with not-a-number must not pass.
@@ -89,11 +90,11 @@ void compareIrradiance(const Field& a, const Field& b, int probe, AtlasDifferenc
 
 void compareVisibility(const Field& a, const Field& b, int probe, AtlasDifference& difference, int& differing) {
     const int size = a.desc().visibilityTexels;
-    const float farthest = maxDistance(a.desc().volumes[0]);
+    const float farthest = visibilityRange(a.desc().volumes[0]);
     const glm::vec2 scale = 65535.0f / glm::vec2(farthest, farthest * farthest);
     for (int texel = 0; texel < size * size; ++texel) {
         const glm::vec3 d = texelDirection(texel, size);
-        const glm::vec2 steps = glm::abs(a.probeDistanceMoments(probe, d) - b.probeDistanceMoments(probe, d)) * scale;
+        const glm::vec2 steps = glm::abs(probeDistanceMoments(a, probe, d) - probeDistanceMoments(b, probe, d)) * scale;
         for (int c = 0; c < 2; ++c) {
             difference.worstVisibility =
                 steps[c] <= difference.worstVisibility ? difference.worstVisibility : double(steps[c]);
@@ -111,7 +112,7 @@ AtlasDifference compareAtlases(const Field& a, const Field& b) {
     for (int probe = 0; probe < probes; ++probe) {
         compareIrradiance(a, b, probe, difference, irradiance);
         compareVisibility(a, b, probe, difference, visibility);
-        const double share = std::abs(double(a.probeBackfaceShare(probe)) - b.probeBackfaceShare(probe));
+        const double share = std::abs(double(probeBackfaceShare(a, probe)) - probeBackfaceShare(b, probe));
         difference.worstBackfaceShare = share <= difference.worstBackfaceShare ? difference.worstBackfaceShare : share;
     }
     const FieldLayout layout(a.desc());

@@ -8,7 +8,7 @@
 namespace probegi::test {
 
 /// What a test of tests/backend needs to run on any backend.
-class EveryBackend : public testing::TestWithParam<Backend> {
+class EveryBackend : public testing::TestWithParam<BackendMaker> {
 protected:
     void SetUp() override {
         if (!GetParam().possible()) GTEST_SKIP() << "this device has no ray query";
@@ -35,7 +35,7 @@ protected:
 
 /// Once for each fixture that derives from EveryBackend.
 #define PROBEGI_ON_EVERY_BACKEND(Fixture) \
-    INSTANTIATE_TEST_SUITE_P(All, Fixture, testing::ValuesIn(backends()), nameOf<Backend>)
+    INSTANTIATE_TEST_SUITE_P(All, Fixture, testing::ValuesIn(backendMakers()), nameOf<BackendMaker>)
 
 /// A grid of 6 x 4 x 5 probes with cells that are no cubes.
 FieldSetup smallDesc();
@@ -56,7 +56,7 @@ std::vector<FieldQuery> randomQueries(int count, std::uint32_t seed = 4);
 /// Probes' directions of texel centres: x, y of a map of `size` texels.
 glm::vec3 texelDirection(int texel, int size);
 
-/// The stored value of an irradiance texel: what Field::probeIrradiance() says, encoded.
+/// The stored value of an irradiance texel: what FieldSnapshot::probeIrradiance() says, encoded.
 float storedIrradiance(const Field& field, int probe, int texel, int channel);
 
 /// How the texels of two fields differ, in steps of the storage: half floats of (mean radiance)^(1/5), and 16-bit

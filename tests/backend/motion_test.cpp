@@ -6,6 +6,7 @@
 
 #include "probegi/builtin_scenes.h"
 #include "support/field_setup.h"
+#include "support/probes.h"
 
 namespace probegi::test {
 namespace {
@@ -62,7 +63,7 @@ TEST_P(BackendMotion, noiseUnderSteadyLightIsAveraged) {
         }
         ASSERT_TRUE(field.update(data, fixedData));
         if (frame < before) continue;
-        light.push_back({field.probeIrradiance(13, {0, 1, 0}).x / kPi});
+        light.push_back({probeIrradiance(field, 13, {0, 1, 0}).x / kPi});
     }
     double mean = 0;
     for (const auto& e : light) mean += e[0] / watched;
@@ -116,13 +117,13 @@ TEST_P(BackendMotion, distancesAreFollowed) {
     };
     for (int frame = 0; frame < 60; ++frame) update(2.0f);
     for (int frame = 0; frame < 2; ++frame) update(0.5f);
-    EXPECT_NEAR(field.probeDistanceMoments(13, {0, 0, 1}).x, 0.5f, 0.02f);
+    EXPECT_NEAR(probeDistanceMoments(field, 13, {0, 0, 1}).x, 0.5f, 0.02f);
 }
 
 std::vector<int> openProbes(const Field& field) {
     std::vector<int> probes;
     for (int probe = 0; probe < probeCount(field.desc()); ++probe)
-        if (field.probeBackfaceShare(probe) < 0.1f) probes.push_back(probe);
+        if (probeBackfaceShare(field, probe) < 0.1f) probes.push_back(probe);
     return probes;
 }
 
@@ -134,7 +135,7 @@ std::vector<double> lightOf(const Field& field, std::span<const int> probes) {
             for (const float sign : {-1.0f, 1.0f}) {
                 glm::vec3 normal(0.0f);
                 normal[axis] = sign;
-                const glm::vec3 e = field.probeIrradiance(probe, normal);
+                const glm::vec3 e = probeIrradiance(field, probe, normal);
                 light.push_back((double(e.x) + e.y + e.z) / 3);
             }
     return light;

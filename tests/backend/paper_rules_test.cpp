@@ -7,6 +7,7 @@
 #include "backend/every_backend.h"
 #include "field/layout.h"
 #include "support/field_setup.h"
+#include "support/probes.h"
 
 namespace probegi::test {
 namespace {
@@ -28,7 +29,7 @@ glm::dvec3 twice(glm::vec3 v) {
 double visibility(const Field& field, int index, glm::dvec3 probe, glm::dvec3 point) {
     const glm::dvec3 way = point - probe;
     const double distance = glm::length(way);
-    const glm::vec2 moments = field.probeDistanceMoments(index, glm::vec3(way / distance));
+    const glm::vec2 moments = probeDistanceMoments(field, index, glm::vec3(way / distance));
     const double mean = moments.x, variance = std::abs(double(moments.y) - mean * mean);
     if (distance <= mean) return 1;
     const double bound = variance / (variance + (distance - mean) * (distance - mean));
@@ -66,7 +67,7 @@ glm::dvec3 paperIrradiance(const Field& field, const FieldQuery& query) {
         double weight = facing * seen;
         if (weight < 0.2) weight = weight * weight * weight / 0.04;
         weight *= trilinear;
-        const glm::dvec3 mean = twice(field.probeIrradiance(probe, query.normal)) / kPi;
+        const glm::dvec3 mean = twice(probeIrradiance(field, probe, query.normal)) / kPi;
         sum += weight * glm::sqrt(mean);
         weights += weight;
     }

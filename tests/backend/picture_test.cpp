@@ -25,7 +25,7 @@ protected:
         FieldSetup fieldDesc;
         fieldDesc.raysPerProbe = 64;
         fieldDesc.volumes = {offTheWalls(*placeVolume(pose.bounds, placement))};
-        const auto taken = [&](const Backend& backend) {
+        const auto taken = [&](const BackendMaker& backend) {
             const auto tracer = made(backend.makeTracer(context, scene, pose));
             Field field = made(backend.makeField(context, fieldDesc));
             for (int i = 0; i < frames; ++i) EXPECT_TRUE(field.update(*tracer, lighting));

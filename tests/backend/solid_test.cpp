@@ -6,6 +6,7 @@
 #include "backend/every_backend.h"
 #include "kernels/random.h"
 #include "support/field_setup.h"
+#include "support/probes.h"
 
 namespace probegi::test {
 namespace {
@@ -80,7 +81,7 @@ Scene curtain(bool doubleSided) {
 
 /// Probes a metre apart, the outermost half a metre outside the room.
 struct SolidWorld {
-    SolidWorld(const Context& context, const Backend& backend, Scene own, int updates)
+    SolidWorld(const Context& context, const BackendMaker& backend, Scene own, int updates)
         : scene(std::move(own)), pose(poseAt(scene)), lighting{pose.lights, scene.sky} {
         FieldSetup desc;
         desc.raysPerProbe = 96;
@@ -89,7 +90,7 @@ struct SolidWorld {
         field.emplace(std::move(backend.makeField(context, desc).value()));
         for (int i = 0; i < updates; ++i) EXPECT_TRUE(field->update(*tracer, lighting));
     }
-    float share(int probe) const { return field->probeBackfaceShare(probe); }
+    float share(int probe) const { return probeBackfaceShare(*field, probe); }
     float shareAt(glm::vec3 position) const {
         const glm::ivec3 at(glm::round(position - field->desc().volumes[0].origin));
         return share(at.x + 8 * (at.y + 5 * at.z));
@@ -201,18 +202,18 @@ TEST_P(BackendSolid, aDoorThatMovesOverAProbeIsFollowed) {
     };
     const auto updatesUntil = [&](bool inside, auto reached) {
         int updates = 0;
-        while (updates < 200 && !reached(field.probeBackfaceShare(probe))) {
+        while (updates < 200 && !reached(probeBackfaceShare(field, probe))) {
             update(inside);
             ++updates;
         }
         return updates;
     };
     for (int i = 0; i < 60; ++i) update(false);
-    EXPECT_EQ(field.probeBackfaceShare(probe), 0.0f);
+    EXPECT_EQ(probeBackfaceShare(field, probe), 0.0f);
     // 1 - 0.97^n: as fast as for a single-sided door.
     EXPECT_EQ(updatesUntil(true, [](float share) { return share > 0.3f; }), 12);
     for (int i = 0; i < 100; ++i) update(true);
-    EXPECT_GT(field.probeBackfaceShare(probe), 0.95f);
+    EXPECT_GT(probeBackfaceShare(field, probe), 0.95f);
     EXPECT_LE(updatesUntil(false, [](float share) { return share < 0.25f; }), 46);
 }
 
@@ -224,12 +225,12 @@ TEST_P(BackendSolid, lightFromTheBackOfTwoSidesCounts) {
         ASSERT_TRUE(lit.update(constantData(desc, glm::vec3(-2.0f), -0.5f)));
         ASSERT_TRUE(black.update(constantData(desc, glm::vec3(-1e-30f), -0.5f)));
         const float e = 2 * 3.14159265f;
-        EXPECT_NEAR(lit.probeIrradiance(7, {0, 1, 0}).y, e, 0.01f * e);
-        EXPECT_LT(black.probeIrradiance(7, {0, 1, 0}).y, 1e-6f);
+        EXPECT_NEAR(probeIrradiance(lit, 7, {0, 1, 0}).y, e, 0.01f * e);
+        EXPECT_LT(probeIrradiance(black, 7, {0, 1, 0}).y, 1e-6f);
         // The true distance, not the fifth that a backface counts with.
-        EXPECT_NEAR(lit.probeDistanceMoments(7, {0, 0, 1}).x, 0.5f, 1e-3f);
-        EXPECT_NEAR(black.probeDistanceMoments(7, {0, 0, 1}).x, 0.5f, 1e-3f);
-        EXPECT_EQ(lit.probeBackfaceShare(7), 1.0f) << "nothing but backs";
+        EXPECT_NEAR(probeDistanceMoments(lit, 7, {0, 0, 1}).x, 0.5f, 1e-3f);
+        EXPECT_NEAR(probeDistanceMoments(black, 7, {0, 0, 1}).x, 0.5f, 1e-3f);
+        EXPECT_EQ(probeBackfaceShare(lit, 7), 1.0f) << "nothing but backs";
     }
 }
 

@@ -82,8 +82,8 @@ glm::dvec2 directMoments(const BlendInput& s, std::size_t probe, int texel) {
     for (std::size_t ray = 0; ray < s.layout.rays; ++ray) {
         const double w = std::pow(std::max(0.0, double(glm::dot(n, s.directions[ray]))), s.desc.visibilityExponent);
         const float t = s.data[probe * s.layout.rays + ray].distance;
-        const double d = std::min(t < 0 ? -0.2 * t : double(t), double(maxDistance(s.desc.volumes[0]))) /
-                         maxDistance(s.desc.volumes[0]);
+        const double d = std::min(t < 0 ? -0.2 * t : double(t), double(visibilityRange(s.desc.volumes[0]))) /
+                         visibilityRange(s.desc.volumes[0]);
         sum += w * glm::dvec2(d, d * d);
         weights += w;
     }

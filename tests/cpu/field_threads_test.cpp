@@ -10,6 +10,7 @@
 #include "kernels/probe/octahedral_texel.h"
 #include "probegi/probegi.h"
 #include "support/field_setup.h"
+#include "support/probes.h"
 
 namespace probegi::test {
 namespace {
@@ -53,13 +54,13 @@ std::vector<std::uint32_t> bitsOf(const Field& field) {
     std::vector<FieldQuery> queries;
     const FieldDesc& desc = field.desc();
     for (int probe = 0; probe < probeCount(desc); ++probe) {
-        add(field.probeBackfaceShare(probe));
+        add(probeBackfaceShare(field, probe));
         eachDirection(desc.irradianceTexels, [&](glm::vec3 n) {
-            const glm::vec3 e = field.probeIrradiance(probe, n);
+            const glm::vec3 e = probeIrradiance(field, probe, n);
             for (int c = 0; c < 3; ++c) add(e[c]);
         });
         eachDirection(desc.visibilityTexels, [&](glm::vec3 n) {
-            const glm::vec2 moments = field.probeDistanceMoments(probe, n);
+            const glm::vec2 moments = probeDistanceMoments(field, probe, n);
             add(moments.x);
             add(moments.y);
         });

@@ -4,6 +4,7 @@
 #include "probegi/field.h"
 #include "support/analytic_tracer.h"
 #include "support/field_setup.h"
+#include "support/probes.h"
 
 namespace probegi::test {
 namespace {
@@ -38,7 +39,7 @@ float upwards(bool tells, int updates) {
     Field field = *Field::create(*Context::create({.threads = 1}), desc, desc);
     EXPECT_TRUE(field.converge(LampTracer(tells), {}, 1e-9f, updates));
     float sum = 0;
-    for (int probe = 0; probe < 8; ++probe) sum += field.probeIrradiance(probe, {0, 1, 0}).x;
+    for (int probe = 0; probe < 8; ++probe) sum += probeIrradiance(field, probe, {0, 1, 0}).x;
     return sum;
 }
 

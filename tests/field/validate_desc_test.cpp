@@ -124,7 +124,7 @@ TEST(FieldLayout, sizesFollowFromTheDescription) {
     EXPECT_EQ(layout.rays, 10u);
     EXPECT_EQ(layout.irradianceTexels, 36u);
     EXPECT_EQ(layout.visibilityTexels, 100u);
-    EXPECT_FLOAT_EQ(maxDistance(d.volumes[0]), 1.5f * 7) << "the cell's diagonal and half of it";
+    EXPECT_FLOAT_EQ(visibilityRange(d.volumes[0]), 1.5f * 7) << "the cell's diagonal and half of it";
 }
 
 }  // namespace

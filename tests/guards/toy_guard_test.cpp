@@ -10,7 +10,7 @@ namespace {
 constexpr float kPi = 3.14159265f;
 constexpr LeakGuard kToy{2};  // the row in list/kernels/guards/list.h
 
-class ToyGuard : public testing::TestWithParam<Backend> {
+class ToyGuard : public testing::TestWithParam<BackendMaker> {
 protected:
     void SetUp() override {
         if (!GetParam().possible()) GTEST_SKIP() << "this device has no ray query";
@@ -43,7 +43,7 @@ protected:
         return out;
     }
 };
-INSTANTIATE_TEST_SUITE_P(All, ToyGuard, testing::ValuesIn(backends()), nameOf<Backend>);
+INSTANTIATE_TEST_SUITE_P(All, ToyGuard, testing::ValuesIn(backendMakers()), nameOf<BackendMaker>);
 
 TEST_P(ToyGuard, onlyItsProbesAnswer) {
     for (const glm::vec3& e : answers(kToy)) EXPECT_NEAR(e.x, kPi, 1e-3f);

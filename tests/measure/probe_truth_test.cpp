@@ -39,7 +39,7 @@ TEST(ProbeRatios, ofAConstantField) {
     const double e = 6 * 3.14159265 * 3;
     ProbeTruth truth;
     truth.probes = {{0, e, 0}, {7, 2 * e, 0}};
-    const std::vector<double> ratios = probeRatios(field, truth);
+    const std::vector<double> ratios = probeRatios(*field.read(), truth);
     ASSERT_EQ(ratios.size(), 2u);
     EXPECT_NEAR(ratios[0], 1, 0.01);
     EXPECT_NEAR(ratios[1], 0.5, 0.005);

@@ -30,6 +30,7 @@ declare -A below=(
     [vulkan]="bvh field geometry scene core kernels"
     [reference]="field geometry scene core kernels"
     [render]="field geometry scene core kernels"
+    [backend]=""
     [measure]="field geometry scene core kernels"
 )
 

@@ -13,17 +13,29 @@
 
 namespace probegi::test {
 
-/// Where passes run. A new backend is one line in backends(), and all tests of tests/backend run on it.
-struct Backend {
+/// One way to make a Backend. A new backend is one line in backendMakers(), and all tests of tests/backend run on it.
+struct BackendMaker {
     const char* name;
-    Result<Field> (*makeField)(const Context&, const FieldSetup&);
-    Result<std::unique_ptr<Tracer>> (*makeTracer)(const Context&, const Scene&, const ScenePose&);
-    Result<RenderedPicture> (*renderPicture)(const Context&, const Tracer&, const Lighting&, const Field*,
-                                             const PictureDesc&);
+    Result<std::unique_ptr<Backend>> (*open)(const Context&);
     Result<std::vector<std::uint8_t>> (*toneMap)(const HdrImage&, const ToneMap&);
     bool (*possible)();  ///< whether this machine can run it
 
-    friend std::ostream& operator<<(std::ostream& out, const Backend& backend) { return out << backend.name; }
+    /// What tests ask of a backend most.
+    Result<Field> makeField(const Context& context, const FieldSetup& setup) const {
+        return open(context).and_then([&](const auto& backend) { return backend->makeField(setup, setup); });
+    }
+    Result<std::unique_ptr<Tracer>> makeTracer(const Context& context, const Scene& scene,
+                                               const ScenePose& pose) const {
+        return open(context).and_then([&](const auto& backend) { return backend->openScene(scene, pose); });
+    }
+    Result<RenderedPicture> renderPicture(const Context& context, const Tracer& tracer, const Lighting& lighting,
+                                          const Field* field, const PictureDesc& desc) const {
+        return open(context)
+            .and_then([](const auto& backend) { return backend->makeRenderer(); })
+            .and_then([&](const auto& renderer) { return renderer->render(tracer, lighting, field, desc); });
+    }
+
+    friend std::ostream& operator<<(std::ostream& out, const BackendMaker& maker) { return out << maker.name; }
 };
 
 /// What vulkan::toneMapImage does, as a PNG has it.
@@ -32,26 +44,14 @@ inline Result<std::vector<std::uint8_t>> toneMapOnCpu(const HdrImage& image, con
 }
 
 /// The reference of all others.
-inline const Backend kCpu{"cpu",
-                          [](const Context& context, const FieldSetup& setup) { return setup.make(context); },
-                          makeEmbreeTracer,
-                          renderPicture,
-                          toneMapOnCpu,
-                          [] { return true; }};
+inline const BackendMaker kCpu{"cpu", [](const Context& context) { return openBackend(context); }, toneMapOnCpu,
+                               [] { return true; }};
 
 #ifdef PROBEGI_TEST_VULKAN
 /// The Vulkan backend with one of its tracers.
-template <vulkan::TracerKind kind>
-Backend vulkanBackend(const char* name, bool (*possible)()) {
-    return {name,
-            [](const Context& context, const FieldSetup& setup) {
-                return vulkan::makeField(context, testDevice(), setup, setup);
-            },
-            makeVulkanTracer<kind>,
-            [](const Context& context, const Tracer& tracer, const Lighting& lighting, const Field* field,
-               const PictureDesc& desc) {
-                return vulkan::renderPicture(context, testDevice(), tracer, lighting, field, desc);
-            },
+template <TracerKind kind>
+BackendMaker vulkanBackend(const char* name, bool (*possible)()) {
+    return {name, [](const Context& context) { return vulkan::makeBackend(context, testDevice(), kind); },
             [](const HdrImage& image, const ToneMap& toneMap) {
                 return vulkan::toneMapImage(testDevice(), image, toneMap);
             },
@@ -59,12 +59,12 @@ Backend vulkanBackend(const char* name, bool (*possible)()) {
 }
 #endif
 
-inline std::span<const Backend> backends() {
-    static const Backend all[] = {
+inline std::span<const BackendMaker> backendMakers() {
+    static const BackendMaker all[] = {
         kCpu,
 #ifdef PROBEGI_TEST_VULKAN
-        vulkanBackend<vulkan::TracerKind::bvh>("vulkanBvh", [] { return true; }),
-        vulkanBackend<vulkan::TracerKind::rayQuery>("vulkanRayQuery", [] { return testDevice().rayQuery(); }),
+        vulkanBackend<TracerKind::bvh>("vulkanBvh", [] { return true; }),
+        vulkanBackend<TracerKind::rayQuery>("vulkanRayQuery", [] { return testDevice().rayQuery(); }),
 #endif
     };
     return all;

@@ -4,6 +4,7 @@
 
 #include "kernels/abi/gpu_passes.h"
 #include "support/field_setup.h"
+#include "support/probes.h"
 #include "support/vulkan_device.h"
 #include "vulkan/device/exchange.h"
 #include "vulkan/scene/gpu_scene_impl.h"
@@ -23,10 +24,10 @@ protected:
     static void expectFinite(const Field& field) {
         const int probes = probeCount(field.desc());
         for (int probe = 0; probe < probes; ++probe) {
-            EXPECT_TRUE(field.probeBackfaceShare(probe) >= 0.0f && field.probeBackfaceShare(probe) <= 1.0f) << probe;
+            EXPECT_TRUE(probeBackfaceShare(field, probe) >= 0.0f && probeBackfaceShare(field, probe) <= 1.0f) << probe;
             for (const glm::vec3 direction : {glm::vec3(0, 1, 0), glm::vec3(-0.6f, 0, 0.8f), glm::vec3(0, -1, 0)}) {
-                EXPECT_TRUE(finite(field.probeIrradiance(probe, direction))) << probe;
-                const glm::vec2 moments = field.probeDistanceMoments(probe, direction);
+                EXPECT_TRUE(finite(probeIrradiance(field, probe, direction))) << probe;
+                const glm::vec2 moments = probeDistanceMoments(field, probe, direction);
                 EXPECT_TRUE(std::isfinite(moments.x) && std::isfinite(moments.y) && moments.x >= 0) << probe;
             }
         }

@@ -5,7 +5,7 @@
 
 #include "bench/points.h"
 #include "render_stats.h"
-#include "vulkan_backend.h"
+#include "vulkan_device.h"
 
 namespace probegi::tool {
 
@@ -55,7 +55,7 @@ Result<GpuBench> makeGpuBench(const LoadedSetup& setup, const BackendOptions& ba
     const auto device = openDevice(*context, backend);
     if (!device) return device.error();
     vulkan::GpuSceneDesc scene;
-    scene.tracer = tracerKind(backend.tracer);
+    scene.tracer = backend.tracer;
     auto tracer = vulkan::makeTracer(*context, *device, *setup.scene, setup.pose, scene);
     if (!tracer) return tracer.error();
     FieldDesc desc;
@@ -129,7 +129,7 @@ Result<GpuBenchResult> runGpuBench(const LoadedSetup& setup, const BackendOption
     if (const auto done = bench->round(); !done) return done.error();
 
     GpuBenchResult result = bench->facts();
-    const bool rayQuery = backend.tracer != GpuTracer::bvh && bench->device.rayQuery();
+    const bool rayQuery = backend.tracer != TracerKind::bvh && bench->device.rayQuery();
     result.tracer = rayQuery ? "ray query" : "BVH";
     for (int round = 1; round <= plan.rounds; ++round) {
         progress("passes", round, plan.rounds);

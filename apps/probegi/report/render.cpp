@@ -37,6 +37,7 @@ PictureDesc pictureDesc(const RenderedView& view, const ReportSettings& settings
 struct Studio {
     const Backend& backend;
     const Tracer& tracer;  ///< the backend's
+    Renderer& renderer;    ///< the backend's
     const LoadedSetup& setup;
     const ReportSettings& settings;
 
@@ -70,7 +71,7 @@ Result<FieldResult> fillField(Field& field, const Tracer& tracer, const Lighting
 
 Result<MethodResult> drawMethod(const Studio& studio, const RenderedView& view, const Field* field) {
     auto rendered =
-        studio.backend.render(studio.tracer, studio.setup.lighting, field, pictureDesc(view, studio.settings));
+        studio.renderer.render(studio.tracer, studio.setup.lighting, field, pictureDesc(view, studio.settings));
     if (!rendered) return rendered.error();
     MethodResult result;
     result.picture = std::move(rendered->picture);
@@ -108,7 +109,10 @@ Result<void> drawViews(const Studio& studio, RenderedScene& scene, MethodResult 
 Result<FieldResult> fillAndMeasure(const Studio& studio, const ProbeTruth& truth, Field& field,
                                    const FieldRunOptions& run) {
     auto filled = fillField(field, studio.tracer, studio.setup.lighting, run);
-    if (filled) filled->ratio = percentiles(probeRatios(field, truth));
+    if (!filled) return filled;
+    const auto probes = field.read();
+    if (!probes) return probes.error();
+    filled->ratio = percentiles(probeRatios(*probes, truth));
     return filled;
 }
 
@@ -129,12 +133,14 @@ Result<std::vector<ProbeSight>> lookAtProbes(const Field& field) {
         for (const glm::vec3& axis : kAxes) queries.push_back({probePosition(grid, int(probe)), axis, axis});
     std::vector<glm::vec3> answers(queries.size());
     if (const auto asked = field.irradiance(queries, answers); !asked) return asked.error();
+    const auto stored = field.read({0, int(count)});
+    if (!stored) return stored.error();
     std::vector<ProbeSight> probes(count);
     for (std::size_t i = 0; i < answers.size(); ++i)
         probes[i / std::size(kAxes)].irradiance +=
             glm::dot(answers[i], glm::vec3(0.2126f, 0.7152f, 0.0722f)) / float(std::size(kAxes));
     for (std::size_t probe = 0; probe < count; ++probe)
-        probes[probe].backfaceShare = field.probeBackfaceShare(int(probe));
+        probes[probe].backfaceShare = stored->state(int(probe)).backfaceShare;
     return probes;
 }
 
@@ -293,11 +299,13 @@ Result<RenderedScene> renderForReport(const Context& context, const Backend& bac
     scene.prepareSeconds = watch.seconds();
     std::unique_ptr<Tracer> another;  // where the reference's is not the backend's
     if (backend.kind() != BackendKind::cpu) {
-        auto made = backend.makeTracer(*setup.scene, setup.pose);
+        auto made = backend.openScene(*setup.scene, setup.pose);
         if (!made) return made.error();
         another = std::move(*made);
     }
-    const Studio studio{backend, another ? *another : **tracer, setup, settings};
+    const auto renderer = backend.makeRenderer();
+    if (!renderer) return renderer.error();
+    const Studio studio{backend, another ? *another : **tracer, **renderer, setup, settings};
 
     studio.begin(kProbeTruth);
     auto truth = traceProbeTruth(**tracer, *pathTracer, setup.grid, settings.ratioProbes, settings.ratioSamples,

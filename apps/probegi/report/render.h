@@ -88,7 +88,7 @@ struct RenderedView {
 
 /// What a field knows at one of its probes.
 struct ProbeSight {
-    float backfaceShare = 0;  ///< Field::probeBackfaceShare
+    float backfaceShare = 0;  ///< ProbeState::backfaceShare
     float irradiance = 0;     ///< luminance of E, mean over the six axis directions, W m^-2
 };
 

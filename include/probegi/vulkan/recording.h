@@ -9,12 +9,7 @@
 /// For engines: passes that are recorded into the engine's own command buffers.
 namespace probegi::vulkan {
 
-/// How triangles are traced on the GPU.
-enum class TracerKind : std::uint8_t {
-    automatic,  ///< ray query where it is in hardware, else the BVH
-    bvh,        ///< the library's own wide, quantised BVH in compute; any device
-    rayQuery,   ///< VK_KHR_ray_query
-};
+using probegi::TracerKind;
 
 struct GpuSceneDesc {
     TracerKind tracer = TracerKind::automatic;

@@ -1,10 +1,14 @@
 #pragma once
 
-#include "probegi/render.h"
+#include "probegi/backend.h"
 #include "probegi/vulkan/recording.h"
 
 /// For programs without a renderer of their own: the CPU backend's API on the GPU. These calls submit and wait.
 namespace probegi::vulkan {
+
+/// All of the below as probegi::Backend has it, on a device that is open. Errors: unsupported (no ray query there).
+PROBEGI_API Result<std::unique_ptr<Backend>> makeBackend(const Context& context, const Device& device,
+                                                         TracerKind tracer = TracerKind::automatic);
 
 /// Triangles traced on the GPU: closestHits(), occluded() and surfaces() upload, dispatch and wait, so large batches
 /// are best; a Field of the same device traces without leaving the GPU. They fail with deviceLost or outOfMemory. The

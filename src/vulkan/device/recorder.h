@@ -52,8 +52,8 @@ public:
         m_commands.dispatchIndirect(buffer.handle(), offset, dispatcher());
     }
 
-    void copy(const Buffer& from, const Buffer& to, VkDeviceSize bytes) const {
-        if (bytes) m_commands.copyBuffer(from.handle(), to.handle(), vk::BufferCopy(0, 0, bytes), dispatcher());
+    void copy(const Buffer& from, const Buffer& to, VkDeviceSize bytes, VkDeviceSize offset = 0) const {
+        if (bytes) m_commands.copyBuffer(from.handle(), to.handle(), vk::BufferCopy(0, offset, bytes), dispatcher());
     }
     void fill(const Buffer& buffer, std::uint32_t value) const {
         m_commands.fillBuffer(buffer.handle(), 0, VK_WHOLE_SIZE, value, dispatcher());

@@ -2,38 +2,38 @@
 
 #include <vector>
 
+#include "field/field_backend.h"
+#include "kernels/probe/solid_probe.h"
 #include "vulkan/device/exchange.h"
 #include "vulkan/field/gpu_field_impl.h"
 
 namespace probegi::vulkan {
 
-/// A volume's atlases and states as the CPU reads them back: for looking at single probes, not for rendering. Throws.
+/// A field's atlases and states in main memory: read back from the GPU, and written to it. Throws.
 class FieldMirror {
 public:
     /// Copies everything from the GPU and waits.
     explicit FieldMirror(const FieldPasses& passes);
 
-    /// Encoded irradiance of an interior or border texel, -1 <= x, y <= size.
-    glm::vec3 irradianceTexel(int probe, glm::ivec2 texel) const;
-    /// Moments of an interior or border texel, as fractions of the farthest distance and its square.
-    glm::vec2 visibilityTexel(int probe, glm::ivec2 texel) const;
-    float backfaceShare(int probe) const { return m_shares[std::size_t(probe)]; }
-    std::uint32_t fallbacks() const noexcept { return m_fallbacks; }
-
-    /// As Field's of the same names.
-    glm::vec3 probeIrradiance(int probe, glm::vec3 normal) const;
-    glm::vec2 probeDistanceMoments(int probe, glm::vec3 direction) const;
-    std::vector<float> brightness() const;
+    ProbeLight light() const;
+    FieldSnapshot read(SlotRange slots) const;
+    /// Takes over the snapshot's probes, copies everything to the GPU and waits.
+    void write(const FieldSnapshot& snapshot);
 
 private:
-    std::size_t texelIndex(const Image& image, int texels, int probe, glm::ivec2 texel) const;
+    /// A texel of a slot's map in an atlas, border texels included: -1 <= x, y <= texels.
+    std::size_t texelIndex(const Image& image, int texels, int slot, glm::ivec2 texel) const;
+    void readMaps(FieldSnapshot& snapshot, std::size_t probe, int slot) const;
+    void writeMaps(const FieldSnapshot& snapshot, std::size_t probe, int slot);
+    void upload() const;
 
     const FieldPasses& m_passes;
     FieldDesc m_desc;
     std::vector<std::uint16_t> m_irradiance;  // four halves a texel
     std::vector<std::uint32_t> m_visibility;
     std::vector<float> m_shares;
-    std::uint32_t m_fallbacks = 0;
+    std::vector<kernels::ProbeSides> m_sides;
+    std::vector<kernels::PackedProbeFilter> m_filters;
 };
 
 }  // namespace probegi::vulkan

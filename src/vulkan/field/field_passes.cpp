@@ -67,9 +67,9 @@ FieldPasses::FieldPasses(const Device& device, const FieldDesc& desc)
       m_tasks(device.impl(), "tasks", sizeof(kernels::GpuTaskCounts) + m_layout.probes * sizeof(kernels::GpuTask),
               kAddressed | vk::BufferUsageFlagBits::eIndirectBuffer),
       m_sides(device.impl(), "probe sides", m_layout.probes * sizeof(kernels::ProbeSides),
-              kAddressed | vk::BufferUsageFlagBits::eTransferDst),
+              kAddressed | vk::BufferUsageFlagBits::eTransferSrc),
       m_filters(device.impl(), "temporal filters", m_layout.probes * sizeof(kernels::PackedProbeFilter),
-                kAddressed | vk::BufferUsageFlagBits::eTransferDst),
+                kAddressed | vk::BufferUsageFlagBits::eTransferSrc),
       m_steps(device.impl(), "temporal steps", m_layout.probes * sizeof(kernels::GpuProbeStep), kAddressed),
       m_changes(device.impl(), "texel changes",
                 m_layout.probes *

@@ -53,6 +53,8 @@ public:
     const Image& irradiance() const noexcept { return m_irradiance; }
     const Image& visibility() const noexcept { return m_visibility; }
     const Buffer& states() const noexcept { return m_states; }
+    const Buffer& sides() const noexcept { return m_sides; }
+    const Buffer& filters() const noexcept { return m_filters; }
     const Device& device() const noexcept { return m_device; }
 
 private:

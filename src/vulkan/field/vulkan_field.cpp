@@ -177,36 +177,27 @@ glm::vec3 VulkanField::irradiance(const FieldSettings& settings, const FieldQuer
     return done ? result : glm::vec3(kNotANumber);
 }
 
-template <class T, class Read>
-T VulkanField::mirrored(const T& failed, const Read& read) const noexcept {
+FieldMirror& VulkanField::mirror() const {
+    if (!m_mirror) m_mirror.emplace(m_passes);
+    return *m_mirror;
+}
+
+Result<ProbeLight> VulkanField::light() const {
     const std::lock_guard lock(m_mutex);
-    const auto result = guarded("reading probes", [&] {
-        if (!m_mirror) m_mirror.emplace(m_passes);
-        return read(*m_mirror);
-    });
-    return result ? *result : failed;
+    return guarded("reading probes", [&] { return mirror().light(); });
 }
 
-Result<std::vector<float>> VulkanField::brightness() const {
+Result<FieldSnapshot> VulkanField::read(SlotRange slots) const {
     const std::lock_guard lock(m_mutex);
-    return guarded("reading probes", [&] {
-        if (!m_mirror) m_mirror.emplace(m_passes);
-        return m_mirror->brightness();
-    });
+    return guarded("reading probes", [&] { return mirror().read(slots); });
 }
 
-float VulkanField::probeBackfaceShare(int probe) const noexcept {
-    return mirrored(kNotANumber, [&](const FieldMirror& mirror) { return mirror.backfaceShare(probe); });
-}
-
-glm::vec3 VulkanField::probeIrradiance(int probe, glm::vec3 normal) const noexcept {
-    return mirrored(glm::vec3(kNotANumber),
-                    [&](const FieldMirror& mirror) { return mirror.probeIrradiance(probe, normal); });
-}
-
-glm::vec2 VulkanField::probeDistanceMoments(int probe, glm::vec3 direction) const noexcept {
-    return mirrored(glm::vec2(kNotANumber),
-                    [&](const FieldMirror& mirror) { return mirror.probeDistanceMoments(probe, direction); });
+Result<void> VulkanField::write(const FieldSnapshot& snapshot) {
+    const std::lock_guard lock(m_mutex);
+    auto written = guarded("writing probes", [&] { mirror().write(snapshot); });
+    // It may hold what the GPU does not.
+    if (!written) m_mirror.reset();
+    return written;
 }
 
 std::uint64_t VulkanField::fallbackQueries() const noexcept {

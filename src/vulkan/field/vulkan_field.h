@@ -23,13 +23,12 @@ public:
     Result<void> irradiance(const FieldSettings& settings, std::span<const FieldQuery> queries,
                             std::span<glm::vec3> out) const override;
     glm::vec3 irradiance(const FieldSettings& settings, const FieldQuery& query) const noexcept override;
-    Result<std::vector<float>> brightness() const override;
+    Result<ProbeLight> light() const override;
+    Result<FieldSnapshot> read(SlotRange slots) const override;
+    Result<void> write(const FieldSnapshot& snapshot) override;
 
     FieldMemory memory() const noexcept override;
     std::uint64_t fallbackQueries() const noexcept override;
-    float probeBackfaceShare(int probe) const noexcept override;
-    glm::vec3 probeIrradiance(int probe, glm::vec3 normal) const noexcept override;
-    glm::vec2 probeDistanceMoments(int probe, glm::vec3 direction) const noexcept override;
 
     const Device& device() const noexcept { return m_device; }
     FieldPasses& passes() const noexcept { return m_passes; }
@@ -44,9 +43,8 @@ private:
     /// guarded(), for passes over the volume.
     template <class Body>
     auto attempted(const char* doing, const Body& body) const;
-    /// Calls `read` with an up-to-date mirror; not a number where the GPU fails.
-    template <class T, class Read>
-    T mirrored(const T& failed, const Read& read) const noexcept;
+    /// Up to date. Throws.
+    FieldMirror& mirror() const;
 
     Context m_context;
     Device m_device;

@@ -1,0 +1,145 @@
+#include "field/snapshot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "core/sentence.h"
+#include "kernels/probe/irradiance_decoding.h"
+#include "kernels/probe/octahedral_texel.h"
+#include "kernels/probe/probe_texel.h"
+
+namespace probegi {
+
+namespace {
+
+constexpr std::uint16_t kInfiniteHalf = 0x7c00;
+
+// Bilinear in an octahedral map: between the four texels around a direction, border resolved.
+template <class Texel>
+auto bilinear(glm::vec3 direction, int size, const Texel& texel) {
+    const glm::vec2 at = kernels::octTexelPosition(kernels::octEncode(direction), size);
+    const glm::vec2 corner = glm::clamp(glm::floor(at), glm::vec2(-1.0f), glm::vec2(float(size - 1)));
+    const glm::vec2 f = at - corner;
+    const auto tap = [&](int x, int y) {
+        const glm::ivec2 t = kernels::octWrapTexel(int(corner.x) + x, int(corner.y) + y, size);
+        return texel(std::size_t(t.y * size + t.x));
+    };
+    return (1 - f.x) * (1 - f.y) * tap(0, 0) + f.x * (1 - f.y) * tap(1, 0) + (1 - f.x) * f.y * tap(0, 1) +
+           f.x * f.y * tap(1, 1);
+}
+
+bool isShare(float x) {
+    return x >= 0.0f && x <= 1.0f;
+}
+
+// A filter's words are pairs of halves, finite and not negative; one of them is stored plus one.
+bool storable(const ProbeState& state) {
+    const auto half = [](std::uint32_t h) { return (h & 0xffffu) <= kInfiniteHalf; };
+    return isShare(state.backfaceShare) && isShare(state.backs) && isShare(state.fronts) &&
+           state.steps <= kernels::kNoWayOut && state.nextSteps <= kernels::kNoWayOut &&
+           state.trust <= kernels::kMostTrust &&
+           std::all_of(state.filter.begin(), state.filter.end(),
+                       [&](std::uint32_t word) { return half(word) && half(word >> 16); });
+}
+
+Result<void> validateLengths(const FieldLayout& layout, const FieldSnapshot& snapshot) {
+    const auto check = [&](const char* name, std::size_t have, std::size_t perProbe) -> Result<void> {
+        const std::size_t wanted = std::size_t(snapshot.slots.count) * perProbe;
+        if (have == wanted) return {};
+        return fail(ErrorCode::invalidArgument, sentence("the snapshot's ", name, " has ", have, " entries; its ",
+                                                         snapshot.slots.count, " slots need ", wanted));
+    };
+    if (auto ok = check("irradiance", snapshot.irradiance.size(), 3 * layout.irradianceTexels); !ok) return ok;
+    if (auto ok = check("visibility", snapshot.visibility.size(), layout.visibilityTexels); !ok) return ok;
+    return check("states", snapshot.states.size(), 1);
+}
+
+const VolumeDesc& volumeWithSlot(const FieldDesc& desc, int slot) {
+    auto volume = desc.volumes.begin();
+    for (; slot >= probeCount(*volume); ++volume) slot -= probeCount(*volume);
+    return *volume;
+}
+
+}  // namespace
+
+FieldSnapshot emptySnapshot(const FieldDesc& desc, SlotRange slots) {
+    const FieldLayout layout(desc);
+    FieldSnapshot snapshot;
+    snapshot.desc = desc;
+    snapshot.slots = slots;
+    snapshot.irradiance.resize(std::size_t(slots.count) * 3 * layout.irradianceTexels);
+    snapshot.visibility.resize(std::size_t(slots.count) * layout.visibilityTexels);
+    snapshot.states.resize(std::size_t(slots.count));
+    return snapshot;
+}
+
+Result<void> validateSlots(const FieldDesc& desc, SlotRange slots) {
+    const int probes = probeCount(desc);
+    if (slots.first >= 0 && slots.count >= 0 && slots.first <= probes && slots.count <= probes - slots.first) return {};
+    return fail(ErrorCode::invalidArgument, sentence("there are no ", slots.count, " probes from slot ", slots.first,
+                                                     " on; the field has ", probes, " slots"));
+}
+
+Result<void> validateSnapshot(const FieldDesc& desc, const FieldSnapshot& snapshot) {
+    if (snapshot.desc.volumes != desc.volumes)
+        return fail(ErrorCode::invalidArgument, "the snapshot is of a field with other volumes");
+    if (snapshot.desc.irradianceTexels != desc.irradianceTexels ||
+        snapshot.desc.visibilityTexels != desc.visibilityTexels)
+        return fail(ErrorCode::invalidArgument,
+                    sentence("the snapshot has maps of ", snapshot.desc.irradianceTexels, " and ",
+                             snapshot.desc.visibilityTexels, " texels; the field's have ", desc.irradianceTexels,
+                             " and ", desc.visibilityTexels));
+    if (auto ok = validateSlots(desc, snapshot.slots); !ok) return ok;
+    if (auto ok = validateLengths(FieldLayout(desc), snapshot); !ok) return ok;
+    if (snapshot.frame < 0 || snapshot.rayTurns < 0 || snapshot.rayTurns > snapshot.frame)
+        return fail(ErrorCode::invalidArgument, sentence("the snapshot cannot be of frame ", snapshot.frame, " after ",
+                                                         snapshot.rayTurns, " turns of the rays"));
+    if (!std::all_of(snapshot.irradiance.begin(), snapshot.irradiance.end(),
+                     [](std::uint16_t half) { return half < kInfiniteHalf; }))
+        return fail(ErrorCode::invalidArgument, "the snapshot's irradiance is not finite and positive everywhere");
+    if (!std::all_of(snapshot.states.begin(), snapshot.states.end(), storable))
+        return fail(ErrorCode::invalidArgument, "the snapshot has a probe state that no update stores");
+    return {};
+}
+
+ProbeState probeState(float backfaceShare, const kernels::ProbeSides& sides, const kernels::PackedProbeFilter& filter) {
+    return {backfaceShare,
+            sides.backs,
+            sides.fronts,
+            sides.steps,
+            sides.nextSteps,
+            sides.trust,
+            std::to_array(filter.words)};
+}
+
+kernels::ProbeSides sidesOf(const ProbeState& state) noexcept {
+    return {state.backs, state.fronts, state.steps, state.nextSteps, state.trust};
+}
+
+kernels::PackedProbeFilter filterOf(const ProbeState& state) noexcept {
+    kernels::PackedProbeFilter packed;
+    std::copy(state.filter.begin(), state.filter.end(), packed.words);
+    return packed;
+}
+
+glm::vec3 FieldSnapshot::probeIrradiance(int slot, glm::vec3 normal) const noexcept {
+    const int size = desc.irradianceTexels;
+    const std::uint16_t* map = irradiance.data() + std::size_t(slot - slots.first) * 3 * std::size_t(size * size);
+    const glm::vec3 stored = bilinear(normal, size, [&](std::size_t texel) {
+        return glm::vec3(kernels::unpackHalf(map[3 * texel]), kernels::unpackHalf(map[3 * texel + 1]),
+                         kernels::unpackHalf(map[3 * texel + 2]));
+    });
+    return kernels::kPi * glm::vec3(kernels::decodeIrradiance(stored.x), kernels::decodeIrradiance(stored.y),
+                                    kernels::decodeIrradiance(stored.z));
+}
+
+glm::vec2 FieldSnapshot::probeDistanceMoments(int slot, glm::vec3 direction) const noexcept {
+    const int size = desc.visibilityTexels;
+    const std::uint32_t* map = visibility.data() + std::size_t(slot - slots.first) * std::size_t(size * size);
+    const float range = visibilityRange(volumeWithSlot(desc, slot));
+    return bilinear(direction, size, [&](std::size_t texel) { return kernels::unpackMoments(map[texel]); }) *
+           glm::vec2(range, range * range);
+}
+
+}  // namespace probegi
