@@ -4,6 +4,7 @@
 
 #include "bench_shaders.h"
 #include "kernels/abi/gpu_passes.h"
+#include "kernels/probe/probe_texel.h"
 #include "vulkan/device/errors.h"
 #include "vulkan_room.h"
 
@@ -37,27 +38,22 @@ void recordDirect(const Recorder& recorder, VulkanRoom& room, const BenchPass& p
     pass.record(recorder, layout.probes * (layout.irradianceTexels + layout.visibilityTexels));
 }
 
-// Steps of the format between two volumes, at most. The border counts: a texel of it is read like any other.
+// Steps of the formats between two fields, at most.
 struct Difference {
     float irradiance = 0, visibility = 0;
 };
 
 Difference differenceOf(const FieldPasses& a, const FieldPasses& b) {
-    const FieldMirror one(a), other(b);
+    const SlotRange all{0, int(a.layout().probes)};
+    const FieldSnapshot one = FieldMirror(a).read(all), other = FieldMirror(b).read(all);
     Difference worst;
-    for (int probe = 0; probe < int(a.layout().probes); ++probe) {
-        const int irradiance = a.desc().irradianceTexels, visibility = a.desc().visibilityTexels;
-        for (int y = -1; y <= irradiance; ++y)
-            for (int x = -1; x <= irradiance; ++x) {
-                const glm::vec3 p = one.irradianceTexel(probe, {x, y}), q = other.irradianceTexel(probe, {x, y});
-                for (int c = 0; c < 3; ++c)  // a half float's step is 2^-10 of a power of two
-                    worst.irradiance = std::max(worst.irradiance, 1024 * std::abs(p[c] - q[c]) / std::max(p[c], 1e-4f));
-            }
-        for (int y = -1; y <= visibility; ++y)
-            for (int x = -1; x <= visibility; ++x) {
-                const glm::vec2 d = one.visibilityTexel(probe, {x, y}) - other.visibilityTexel(probe, {x, y});
-                worst.visibility = std::max({worst.visibility, 65535 * std::abs(d.x), 65535 * std::abs(d.y)});
-            }
+    for (std::size_t i = 0; i < one.irradiance.size(); ++i) {  // a half float's step is 2^-10 of a power of two
+        const float p = kernels::unpackHalf(one.irradiance[i]), q = kernels::unpackHalf(other.irradiance[i]);
+        worst.irradiance = std::max(worst.irradiance, 1024 * std::abs(p - q) / std::max(p, 1e-4f));
+    }
+    for (std::size_t i = 0; i < one.visibility.size(); ++i) {
+        const glm::vec2 d = kernels::unpackMoments(one.visibility[i]) - kernels::unpackMoments(other.visibility[i]);
+        worst.visibility = std::max({worst.visibility, 65535 * std::abs(d.x), 65535 * std::abs(d.y)});
     }
     return worst;
 }

@@ -34,7 +34,7 @@ SidesDifference measureSides(std::string_view name, const VolumeDesc& grid, int 
     const auto queries = one.surfaceQueries(3000, 0.05f);
     const auto difference = compareLight(*lightAt(two.field, queries), *lightAt(one.field, queries));
     SidesDifference d{difference->rms, 0};
-    for (int probe = 0; probe < probeCount(grid); ++probe) d.solid += probeBackfaceShare(one.field, probe) > 0.3f;
+    for (int probe = 0; probe < probeCount(grid); ++probe) d.solid += test::probeBackfaceShare(one.field, probe) > 0.3f;
     return d;
 }
 

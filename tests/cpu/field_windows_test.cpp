@@ -41,8 +41,8 @@ struct Row {
         }
     }
     /// Share of the way from light 1 to light 3 that the x-th probe of the first row has gone.
-    float followed(int x) const { return (probeIrradiance(*field, x, {0, 1, 0}).x / 3.14159265f - 1) / 2; }
-    float meanDistance(int x) const { return probeDistanceMoments(*field, x, {0, 1, 0}).x; }
+    float followed(int x) const { return (test::probeIrradiance(*field, x, {0, 1, 0}).x / 3.14159265f - 1) / 2; }
+    float meanDistance(int x) const { return test::probeDistanceMoments(*field, x, {0, 1, 0}).x; }
 };
 
 TEST(FieldWindows, stillLightIsAveraged) {
@@ -108,8 +108,8 @@ TEST(FieldWindows, probesInWallsAreNotHeard) {
     Row row;
     for (std::size_t i = 0; i < kRays; ++i) row.rays[i].distance = -1;
     row.update(40);
-    EXPECT_GT(probeBackfaceShare(*row.field, 0), 0.9f);
-    EXPECT_LT(probeBackfaceShare(*row.field, 1), 0.01f);
+    EXPECT_GT(test::probeBackfaceShare(*row.field, 0), 0.9f);
+    EXPECT_LT(test::probeBackfaceShare(*row.field, 1), 0.01f);
     row.light = 3;
     for (std::size_t i = 0; i < kFixed; ++i) row.fixed[i].direct = 3;
     row.update(1);

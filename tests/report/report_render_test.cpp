@@ -16,7 +16,7 @@ TEST(ReportRender, PiecesAreThosePlannedAndEveryCameraIsDrawn) {
     setup->pose.cameras.push_back(lookAt(setup->camera.position, setup->pose.bounds.centre() + glm::vec3(0, 0, 1)));
     setup->pose.cameras.back().name = "another";
     const Context context = Context::create({.threads = 2}).value();
-    const auto backend = openBackend(context, {});
+    const auto backend = openBackend(context, BackendOptions{});
     ReportSettings settings;
     settings.width = 32;
     settings.height = 18;
