@@ -16,7 +16,7 @@ TriangleSoup soupOf(const SurfaceMesh& mesh) {
             .triangleCount = mesh.triangles.size()};
 }
 
-/// The library's own BVH, built on the context's threads. The top level stands first in the array of nodes, so that a
+/// The library's own BVH, built on the context's threads. The top level is at the start of the node array, so that a
 /// refit overwrites it in place.
 class BvhSceneTracer final : public SceneTracer {
 public:
