@@ -11,7 +11,7 @@ namespace probegi::tool {
 Error builtWithoutVulkan();
 
 #if PROBEGI_HAS_VULKAN
-/// The device that was asked for. Errors: unsupported, and --tracer ray-query on a device without it.
+/// Opens the requested device. Errors: unsupported, also for --tracer ray-query on a device without ray query.
 Result<vulkan::Device> openDevice(const Context& context, const BackendOptions& options);
 #endif
 

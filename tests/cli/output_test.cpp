@@ -82,7 +82,7 @@ TEST_F(Output, WhatIsPrintedOnAFullDiskIsToldToo) {
                                                       {"info", "builtin:cornell", "--json"}}) {
         const ToolRun run = runTool(arguments, {{}, "/dev/full"});
         EXPECT_EQ(run.exitCode, 1) << testing::PrintToString(arguments);
-        EXPECT_THAT(run.err, testing::StartsWith("error: what is printed cannot be written (No space left on device)"));
+        EXPECT_THAT(run.err, testing::StartsWith("error: standard output cannot be written (No space left on device)"));
     }
 }
 

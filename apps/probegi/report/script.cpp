@@ -2,7 +2,7 @@
 
 namespace probegi::tool {
 
-// The values behind a picture come as halfFloatPlanes() packs them; the tone map is that of
+// Values behind pictures are decoded as halfFloatPlanes() encodes them; the tone map is that of
 // src/kernels/screen/tone_map.h.
 const std::string_view kReportScript = R"js(
 "use strict";

@@ -94,8 +94,8 @@ private:
 std::unique_ptr<SceneTracer> makeBvhSceneTracer(const TracedScene& scene) {
     if (!treesFollowAHeuristic())
         scene.device.impl().warn(
-            "this ProbeGI was built without Embree: the trees of the BVH tracer are plain halves, in which "
-            "rays take longer; use ray query, or build with PROBEGI_EMBREE=ON");
+            "this ProbeGI was built without Embree, so the BVH tracer uses median splits, which make rays slower; "
+            "use ray query, or build with PROBEGI_EMBREE=ON");
     return std::make_unique<BvhSceneTracer>(scene);
 }
 
