@@ -1,5 +1,5 @@
-// The blend of all probes on the GPU against its baseline, a thread a texel and all its weights derived anew
-// (shaders/blend_direct.comp). Times are the GPU's own; both take turns, so that the ratio holds on a busy machine.
+// The blend of all probes on the GPU against its baseline, a thread per texel that computes its own weights
+// (shaders/blend_direct.comp). Times are GPU timestamps. Runs alternate, so that the ratio holds on a busy machine.
 #include <benchmark/benchmark.h>
 
 #include "bench_shaders.h"
@@ -37,7 +37,7 @@ void recordDirect(const Recorder& recorder, VulkanRoom& room, const BenchPass& p
     pass.record(recorder, layout.probes * (layout.irradianceTexels + layout.visibilityTexels));
 }
 
-// Steps of the format between two volumes, at most. The border counts: a texel of it is read like any other.
+// Greatest difference between two volumes, in steps of the storage format. Includes borders, which look-ups read too.
 struct Difference {
     float irradiance = 0, visibility = 0;
 };
