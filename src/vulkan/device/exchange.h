@@ -13,7 +13,7 @@ class Exchange {
 public:
     explicit Exchange(const Device& device) : m_device(device) {}
 
-    /// Begins a round trip of at most so many bytes.
+    /// Begins a round trip with at most so many bytes each way.
     void begin(std::size_t bytesIn, std::size_t bytesOut);
     /// Appends input values and returns their address.
     template <class T>
