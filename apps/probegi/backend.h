@@ -23,7 +23,7 @@ void addBackendOptions(CLI::App& command, BackendOptions& options);
 /// begins.
 void checkBackendOptions(const CLI::App& command, const BackendOptions& options);
 
-/// Errors: unsupported (no such device, what it lacks, or a program that was built without Vulkan).
+/// Errors: unsupported (no such device, a missing feature, or a program built without Vulkan).
 Result<std::unique_ptr<Backend>> openBackend(const Context& context, const BackendOptions& options);
 
 /// The folder of --shader-cache, or else probegi in the user's cache folder; empty if the user has none.

@@ -7,7 +7,7 @@
 
 namespace probegi::tool {
 
-/// What a program says that was built without Vulkan.
+/// The error of a program built without Vulkan.
 Error builtWithoutVulkan();
 
 #if PROBEGI_HAS_VULKAN

@@ -43,7 +43,7 @@ private:
     /// guarded() for passes over the field.
     template <class Body>
     auto attempted(const char* doing, const Body& body) const;
-    /// Up to date. Throws.
+    /// The mirror, refreshed if it is out of date. Throws.
     FieldMirror& mirror() const;
 
     Context m_context;
