@@ -1,4 +1,4 @@
-// The blend of all probes as a matrix product, its parts, and the direct loop over texels and rays that it replaces.
+// The blend of all probes as a matrix product, its parts, and the direct loop over texels and rays as a baseline.
 #include <benchmark/benchmark.h>
 
 #include <glm/common.hpp>
@@ -30,7 +30,7 @@ void blendAll(benchmark::State& state) {
     state.counters["a probe"] = perProbe(field, state);
 }
 
-// Once a frame, for all probes.
+// Computed once per frame, for all probes.
 void frameWeights(benchmark::State& state) {
     RoomField field(LeakGuard::moments, {2, 2, 2}, int(state.range(0)));
     BlendWeights weights;
@@ -41,7 +41,7 @@ void frameWeights(benchmark::State& state) {
     }
 }
 
-// The two products of 32 probes, without gathering and storing.
+// The two products for 32 probes, without gathering and storing.
 void products(benchmark::State& state) {
     constexpr std::size_t kProbes = 32;
     RoomField field(LeakGuard::moments, {2, 2, 2}, int(state.range(0)));
@@ -65,7 +65,7 @@ void products(benchmark::State& state) {
     state.counters["FLOP/s"] = benchmark::Counter(2 * multiplications * done, benchmark::Counter::kIsRate);
 }
 
-// Eq. 1 as it stands in the paper: each texel goes over the rays and computes their weights where it uses them.
+// Eq. 1 as in the paper: each texel loops over the rays and computes their weights on the fly.
 template <class Mean, class Weight, class Value>
 void directMeans(std::span<const glm::vec3> directions, int size, std::span<Mean> means, const Weight& weight,
                  const Value& value) {
@@ -82,7 +82,7 @@ void directMeans(std::span<const glm::vec3> directions, int size, std::span<Mean
     }
 }
 
-// What the products replace, without hysteresis and storage.
+// The baseline of the products, without hysteresis and storage.
 void directLoop(benchmark::State& state) {
     const RoomField field(LeakGuard::moments, kCounts, int(state.range(0)));
     const FieldDesc& desc = field.desc();

@@ -1,4 +1,4 @@
-// Single formulas, over arrays that fit into the first-level cache, as the compiler vectorises them.
+// Single formulas over arrays that fit into the first-level cache, vectorised by the compiler.
 #include <benchmark/benchmark.h>
 
 #include <glm/geometric.hpp>
@@ -27,7 +27,7 @@ std::vector<float> values() {
     return result;
 }
 
-// Calls out[i] = function(in[i]) again and again.
+// Measures out[i] = function(in[i]).
 template <class In, class Function>
 void each(benchmark::State& state, const std::vector<In>& in, const Function& function) {
     std::vector<decltype(function(in[0]))> out(in.size(), function(in[0]));
@@ -53,7 +53,7 @@ void encodeIrradiance(benchmark::State& state) {
     each(state, values(), [](float x) { return kernels::encodeIrradiance(x); });
 }
 
-// What the encoding would cost with the library's power.
+// The encoding with std::pow, for comparison.
 void encodeByPow(benchmark::State& state) {
     each(state, values(), [](float x) { return std::pow(x, 0.2f); });
 }
@@ -66,7 +66,7 @@ void packHalfDithered(benchmark::State& state) {
     each(state, values(), [](float x) { return kernels::packHalfDithered(x, 4000u); });
 }
 
-// A power of the cosine per texel and ray: what makes the direct blend slow.
+// A power of the cosine per texel and ray, which makes the direct blend slow.
 void visibilityWeight(benchmark::State& state) {
     const glm::vec3 n = glm::normalize(glm::vec3(1, 2, 3));
     each(state, directions(), [n](glm::vec3 d) { return kernels::visibilityWeight(n, d, 50.0f); });

@@ -1,4 +1,4 @@
-// The query by guard and by order of the points, and what SIMD gains: several points abreast against one by one.
+// The query by leak guard and by order of the points, and the gain from SIMD: several points at a time against one.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -27,7 +27,7 @@ void query(benchmark::State& state, LeakGuard guard, bool coherent, Query functi
                                                    benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-// A baseline that computes something else would prove nothing.
+// Checks that the baseline computes the same.
 void sameAnswer(benchmark::State& state) {
     const RoomField field(LeakGuard::moments);
     const std::vector<FieldQuery> points = field.screenPoints(kWidth, kHeight);

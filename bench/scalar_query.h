@@ -4,8 +4,8 @@
 
 namespace probegi::bench {
 
-/// The look-up in a field's first volume, one point and one probe after the other: what the SIMD of
-/// src/cpu/query_lanes.cpp is compared with, in speed and in the tests in what it answers.
+/// The look-up in a field's first volume, one point and one probe at a time. Benchmarks compare the SIMD look-up of
+/// src/cpu/query_lanes.cpp with it in speed, tests in results.
 void queryScalar(const FieldView& view, std::span<const FieldQuery> queries, std::span<glm::vec3> out);
 
 }  // namespace probegi::bench

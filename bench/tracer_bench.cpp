@@ -1,4 +1,4 @@
-// What a ray costs besides its traversal, on the built-in atrium with the rays of a probe volume.
+// Costs of a ray besides its traversal, in the built-in atrium with the rays of a probe volume.
 #include <benchmark/benchmark.h>
 
 #include "kernels/trace/ray_set.h"
@@ -9,7 +9,7 @@
 namespace probegi::bench {
 namespace {
 
-constexpr std::size_t kBatch = 1152;  // as the update's tasks
+constexpr std::size_t kBatch = 1152;  // as in the tasks of an update
 
 struct Atrium {
     Atrium() {

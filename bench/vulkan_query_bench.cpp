@@ -1,5 +1,5 @@
-// The query of a picture's points on the GPU against two baselines: trilinear interpolation that leaks, and the eight
-// fetches with visibility of the DDGI paper. All three take turns; times are the GPU's own.
+// The query of a picture's points on the GPU against two baselines: trilinear interpolation, which leaks, and the eight
+// fetches with visibility of the DDGI paper. The three alternate; times are GPU timestamps.
 #include <benchmark/benchmark.h>
 
 #include <glm/common.hpp>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace vulkan;
 
-// What is asked and what is answered, in GPU memory.
+// Queries and results in GPU memory.
 struct Points {
     Points(const Device& device, const std::vector<FieldQuery>& queries)
         : count(queries.size()),
@@ -82,12 +82,12 @@ double worstDifference(const std::vector<glm::vec3>& a, const std::vector<glm::v
     for (std::size_t i = 0; i < a.size(); ++i)
         for (int c = 0; c < 3; ++c) {
             const float difference = std::abs(a[i][c] - b[i][c]) / std::max(std::abs(a[i][c]), 1e-6f);
-            worst = std::max(worst, difference < 1e9f ? difference : 1e9f);  // what is no number differs
+            worst = std::max(worst, difference < 1e9f ? difference : 1e9f);  // NaN counts as a difference
         }
     return double(worst);
 }
 
-// Under light that is the same everywhere, leaking or not makes no difference.
+// In uniform light, leaks make no difference.
 double worstDifferenceInFurnace(const RoomField& field) {
     const std::vector<RayDatum> same(field.rayData().size(), {glm::vec3(0.7f), 1.0f});
     VulkanRoom room(field, same);

@@ -12,19 +12,19 @@ namespace probegi::bench {
 
 namespace vk = vulkan::vk;
 
-/// A compute pass of bench/shaders, with the layout of the library's own.
+/// A compute pass of bench/shaders with the library's pass layout.
 class BenchPass {
 public:
     BenchPass(const vulkan::Device& device, std::span<const std::uint32_t> spirv);
 
-    /// Runs it over `count` threads, as Recorder::dispatchOver.
+    /// Records it over `count` threads, like Recorder::dispatchOver.
     void record(const vulkan::Recorder& recorder, std::uint64_t count) const;
 
 private:
     vk::raii::Pipeline m_pipeline;
 };
 
-/// The room's volume of probes on the first usable Vulkan device. Throws Failure where there is none.
+/// The room's probes on the first usable Vulkan device. Throws Failure if there is none.
 class VulkanRoom {
 public:
     explicit VulkanRoom(const RoomField& room, std::span<const RayDatum> rayData);
@@ -34,9 +34,9 @@ public:
     VkDeviceAddress rayData() const noexcept { return m_rayData.address(); }
     VkDeviceAddress directions() const noexcept { return m_directions.address(); }
 
-    /// The same update every time: half of it is what was there before.
+    /// The same update each time, with a hysteresis of a half.
     UpdateFrame frame() const;
-    /// Records, runs, waits, and returns the milliseconds of each pass by the GPU's own clock.
+    /// Records, runs and waits; returns the milliseconds of each pass by GPU timestamps.
     std::vector<vulkan::PassTime> run(const std::function<void(const vulkan::Recorder&, vulkan::Profiler&)>& passes);
     void clear();
     /// One update by the library.

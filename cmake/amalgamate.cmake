@@ -1,9 +1,9 @@
 # cmake -DINPUT=file -DOUTPUT=file -DROOT=folder -P amalgamate.cmake
-# Writes INPUT with every `#include "..."` replaced by that file's text, each file once: what is left needs no include
-# path. Includes are looked for beside the file that names them, then in ROOT.
+# Writes INPUT with every `#include "..."` replaced by the contents of the file, each file once, so that the result
+# needs no include path. Includes are looked for beside the including file, then in ROOT.
 cmake_minimum_required(VERSION 3.25)
 
-# Appends the text of a file, includes and all, to `result` of the caller; `seen` are the files that are in it.
+# Appends the text of a file, with its includes, to the caller's `result`; `seen` lists the files already in it.
 function(append_file path)
     if(path IN_LIST seen)
         return()
@@ -26,7 +26,7 @@ function(append_file path)
             set(found ${ROOT}/${name})
         endif()
         if(NOT EXISTS ${found})
-            message(FATAL_ERROR "${path} includes \"${name}\", which is neither beside it nor in ${ROOT}")
+            message(FATAL_ERROR "${path} includes \"${name}\", which was found neither beside it nor in ${ROOT}")
         endif()
         file(REAL_PATH ${found} found)
         append_file(${found})

@@ -14,7 +14,7 @@ else()
     set(libraries probegi ${layers})
 endif()
 
-# A header whose library was left out is left out as well.
+# Headers of libraries that were not built are not installed.
 set(without "")
 if(NOT PROBEGI_VULKAN)
     list(APPEND without PATTERN vulkan.h EXCLUDE PATTERN vulkan EXCLUDE)

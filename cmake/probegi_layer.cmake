@@ -1,8 +1,7 @@
-# One static library per folder of src/, so that dependencies point one way:
-# a layer sees the headers of the layers that it names, and no others are linked.
+# One static library per folder of src/, so that dependencies point one way: a layer links only the layers it names.
 
 add_library(probegi_options INTERFACE)
-# Highway would compile for AVX-512 twice, with and without instructions that nothing here uses.
+# Otherwise Highway would compile for AVX-512 twice, with and without instructions that nothing here uses.
 target_compile_definitions(probegi_options INTERFACE HWY_DISABLED_TARGETS=HWY_AVX3_DL)
 if(NOT MSVC)
     target_compile_options(probegi_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
@@ -13,7 +12,7 @@ endif()
 if(PROBEGI_NATIVE AND NOT MSVC)
     target_compile_options(probegi_options INTERFACE -march=native)
 elseif(NOT MSVC)
-    # What every x86 processor since 2009 has; the hot loops choose better instructions when they run.
+    # Available on every x86 processor since 2009; the hot loops choose better instructions at run time.
     include(CheckCXXCompilerFlag)
     check_cxx_compiler_flag(-march=x86-64-v2 PROBEGI_COMPILES_X86_64_V2)
     if(PROBEGI_COMPILES_X86_64_V2)
@@ -26,8 +25,8 @@ if(PROBEGI_SANITIZE)
 endif()
 
 # probegi_layer(NAME [WITHOUT names...] [ONLY names...] [LAYERS lower layers...] [LIBRARIES external libraries...])
-# compiles every .cpp of the calling folder into the static library probegi_NAME: but for those whose name begins with
-# one of WITHOUT, or only those that begin with one of ONLY.
+# compiles every .cpp of the calling folder into the static library probegi_NAME, except those whose names begin with
+# one of WITHOUT, or only those whose names begin with one of ONLY.
 function(probegi_layer name)
     cmake_parse_arguments(ARG "" "" "WITHOUT;ONLY;LAYERS;LIBRARIES" ${ARGN})
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
@@ -42,7 +41,7 @@ function(probegi_layer name)
     target_include_directories(probegi_${name}
         PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
         PRIVATE ${PROJECT_SOURCE_DIR}/src)
-    # The same objects go into the static and into the shared library, which shows PROBEGI_API only.
+    # The same objects go into the static and the shared library, which exports PROBEGI_API only.
     set_target_properties(probegi_${name} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
     if(WIN32 AND BUILD_SHARED_LIBS)
         target_compile_definitions(probegi_${name} PRIVATE PROBEGI_BUILDS_SHARED)

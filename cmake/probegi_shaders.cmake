@@ -1,4 +1,4 @@
-# Compute shaders as part of a library: no files to find at run time.
+# Embeds compute shaders in a library, so that there are no files to find at run time.
 
 find_package(Vulkan 1.3 QUIET)
 find_program(GLSLC glslc)
@@ -8,8 +8,8 @@ if(NOT Vulkan_FOUND OR NOT GLSLC)
 endif()
 set(PROBEGI_GLSLC_FLAGS --target-env=vulkan1.2 -std=460core -O -Werror -I${PROJECT_SOURCE_DIR}/src -I${PROJECT_SOURCE_DIR}/include)
 
-# One shader to one list of words, as the inside of a C initialiser; further arguments go to glslc. Appends to `words`,
-# `entries` and `outputs` of the caller.
+# Compiles one shader to a list of words for a C initialiser; further arguments go to glslc. Appends to the caller's
+# `words`, `entries` and `outputs`.
 function(probegi_shader_variant shader name)
     set(output ${CMAKE_CURRENT_BINARY_DIR}/shaders/${name}.inc)
     add_custom_command(OUTPUT ${output}
@@ -23,9 +23,9 @@ endfunction()
 # probegi_shaders(TARGET BOOK [FOLDER folder] [TRACERS folder/tracer_NAME.glsl...]) compiles shaders (GLSL 4.60, no
 # #version line; quoted includes are looked for beside the shader, in src/ and in include/) and adds the function BOOK, a ShaderBook
 # (src/vulkan/device/shader_code.h), to the target:
-# - of every FOLDER/SHADER.comp, as "SHADER";
-# - of every shader of src/vulkan/shaders that has the line `// variants: tracers`, once for each of TRACERS, as
-#   "SHADER_NAME". They include "chosen_tracer.glsl", which the build writes: it includes the tracer's file.
+# - each FOLDER/SHADER.comp, as "SHADER";
+# - each shader of src/vulkan/shaders with the line `// variants: tracers`, once for each of TRACERS, as "SHADER_NAME".
+#   They include "chosen_tracer.glsl", which the build generates: it includes the tracer's file.
 function(probegi_shaders target book)
     cmake_parse_arguments(ARG "" "FOLDER" "TRACERS" ${ARGN})
     set(words "")
@@ -37,7 +37,7 @@ function(probegi_shaders target book)
     endif()
     file(GLOB passes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/vulkan/shaders/*.comp)
     foreach(shader ${passes})
-        # Whether there are variants stands in the shader: another line means another build.
+        # The variants depend on a line of the shader, so CMake must run again if it changes.
         set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${shader})
         file(STRINGS ${shader} traces REGEX "^// variants: tracers$" LIMIT_COUNT 1)
         if(NOT traces)
@@ -63,15 +63,15 @@ function(probegi_shaders target book)
     endforeach()
     list(LENGTH outputs count)
     configure_file(${PROJECT_SOURCE_DIR}/cmake/shader_code.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/${book}.cpp @ONLY)
-    # Objects of their own, so that shaders do not wait for the layers below the target.
+    # A separate object library, so that shaders need not wait for the layers below the target.
     add_library(${target}_shaders OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${book}.cpp ${outputs})
     target_include_directories(${target}_shaders PRIVATE ${CMAKE_CURRENT_BINARY_DIR} ${PROJECT_SOURCE_DIR}/src)
     target_link_libraries(${target}_shaders PRIVATE probegi_options)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_shaders>)
 endfunction()
 
-# probegi_shader_include(INPUT NAME) makes one file of a shader's source and all that it includes, for the shaders of
-# engines: BUILD/include/NAME, installed as include/NAME, which needs no include path of its own.
+# probegi_shader_include(INPUT NAME) merges a shader's source and all its includes into one file for engines' shaders:
+# BUILD/include/NAME, installed as include/NAME, which needs no include path of its own.
 function(probegi_shader_include input name)
     set(output ${PROJECT_BINARY_DIR}/include/${name})
     cmake_path(GET name PARENT_PATH folder)
@@ -82,7 +82,7 @@ function(probegi_shader_include input name)
     set(collect ${CMAKE_COMMAND} -DINPUT=${input} -DOUTPUT=${output} -DROOT=${PROJECT_SOURCE_DIR}/src
         -P ${PROJECT_SOURCE_DIR}/cmake/amalgamate.cmake)
     if(NOT EXISTS ${output})
-        # There from the beginning: shaders of an engine that adds this folder name no dependency on it.
+        # Also made now: if an engine adds this folder, its shaders do not declare a dependency on the file.
         execute_process(COMMAND ${collect} COMMAND_ERROR_IS_FATAL ANY)
     endif()
     add_custom_command(OUTPUT ${output} COMMAND ${collect}

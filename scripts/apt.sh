@@ -1,4 +1,5 @@
-# Sourced by the scripts that install packages: Debian's apt, quiet unless it fails, with no rights asked for until needed.
+# Sourced by the scripts that install packages. Runs Debian's apt, quiet unless it fails, and asks for root rights only
+# if there is something to install.
 
 is_debian_like() { command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; }
 
@@ -7,7 +8,7 @@ fail() {
     exit 1
 }
 
-# Those of the given packages that are not installed, one a line.
+# Prints those of the given packages that are not installed, one per line.
 missing_packages() {
     local package status
     for package in "$@"; do
@@ -17,7 +18,7 @@ missing_packages() {
 }
 
 as_root=()
-# need_root REASON: from here on "${as_root[@]}" runs a command with rights.
+# need_root REASON: makes "${as_root[@]}" run commands as root.
 need_root() {
     ((EUID != 0)) || return 0
     command -v sudo >/dev/null || fail "$1 needs root or sudo; as root, run: scripts/setup.sh $setup_goal"
@@ -34,13 +35,13 @@ apt() {
         </dev/null >"$apt_log" 2>&1 || { tail -n 30 "$apt_log" >&2 && return 1; }
 }
 
-# Reads the package lists, once a run.
+# Updates the package lists, once per run.
 apt_update() {
     [[ -n $apt_updated ]] || apt update || fail "apt-get could not read the package lists; see its message, then run this again."
     apt_updated=yes
 }
 
-# install_packages PACKAGES...: those that are missing.
+# install_packages PACKAGES...: installs those that are missing.
 install_packages() {
     local missing
     mapfile -t missing < <(missing_packages "$@")

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Measures on this machine and puts the tables between the marks <!-- bench:begin --> and <!-- bench:end --> of
-# docs/performance.md, which keeps a section for each family of processors, and what a newcomer asks first into README.md.
-# Timings mean something only while nothing else runs.
+# docs/performance.md, which has a section for each family of processors, and the most important rows into README.md.
+# Run it only while the machine does nothing else.
 set -euo pipefail
 
 usage() {
@@ -9,7 +9,7 @@ usage() {
 Usage: scripts/bench.sh [SCENE [options of probegi bench]]
 
 Without arguments: Sponza from PROBEGI_SCENES (default ../shared/scenes) with sun and sky, 22x14x32 probes of 144 rays, on
-2 threads, and volumes of up to a million probes (2 GB of memory); where Sponza is not there, builtin:atrium. Builds the
+2 threads, and volumes of up to a million probes (2 GB of memory); without Sponza, builtin:atrium. Builds the
 tool (Release) in build/demo first.
 
 Example: scripts/bench.sh
@@ -38,7 +38,7 @@ table=$(mktemp)
 trap 'rm -f "$table" "$table".*' EXIT
 build/demo/apps/probegi/probegi bench "$@" | tee "$table"
 
-# Of the whole table what a newcomer asks first: what an update, a query and a picture take, and how much memory.
+# The most important rows of the table: times of an update, a query and a picture, and memory.
 short_table() {
     awk -F ' *[|] *' '
         !/^[|]/ && !told { print; told = /./ }
@@ -56,12 +56,12 @@ family() {
     esac
 }
 
-# marked PAGE: what is between the page's marks.
+# marked PAGE: prints the text between the page's marks.
 marked() {
     awk '$0 == "<!-- bench:end -->" { exit } inside { print } $0 == "<!-- bench:begin -->" { inside = 1 }' "$1"
 }
 
-# sections TABLE PAGE: what the page has of other families, and the new table of this one.
+# sections TABLE PAGE: prints the page's sections on other families, then a section with the new table.
 sections() {
     marked "$2" | awk -v own="### $(family)" '
         /^### / { kept = $0 != own }
@@ -72,7 +72,7 @@ sections() {
     cat "$1"
 }
 
-# A column for each family, from what `sections` printed: the ratios.
+# A table of ratios with a column per family, from the output of `sections`.
 columns() {
     awk -F ' *[|] *' '
         /^### / { family[++families] = substr($0, 5); next }
@@ -96,7 +96,7 @@ columns() {
     ' "$1"
 }
 
-# put TABLE PAGE: between the page's marks.
+# put TABLE PAGE: replaces the text between the page's marks by the table.
 put() {
     if ! grep -q '^<!-- bench:begin -->$' "$2" || ! grep -q '^<!-- bench:end -->$' "$2"; then
         echo "bench.sh: $2 has no lines <!-- bench:begin --> and <!-- bench:end -->; add them where the table belongs." >&2

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures the Vulkan backend on this machine's GPU, or software Vulkan, and puts the tables between the marks
+# Measures the Vulkan backend on this machine's GPU, or on software Vulkan, and puts the tables between the marks
 # <!-- bench-vulkan:begin --> and <!-- bench-vulkan:end --> of docs/performance.md.
 set -euo pipefail
 
@@ -8,7 +8,7 @@ usage() {
 Usage: scripts/bench_vulkan.sh [SCENE [options of probegi bench]]
 
 Without arguments: Sponza from PROBEGI_SCENES (default ../shared/scenes) with sun and sky, 22x14x32 probes of 144 rays, by
-the library's own BVH; where Sponza is not there, builtin:atrium. Then the blend and the query against their baselines.
+the library's own BVH; without Sponza, builtin:atrium. Then the blend and the query against their baselines.
 Builds the tool and the benchmarks (Release) in build/bench first.
 
 Example: scripts/bench_vulkan.sh
@@ -39,7 +39,7 @@ sed -n 's/^model name[^:]*: *\(.*\)/Host: \1, /p' /proc/cpuinfo | head -n 1 | tr
 echo "$(nproc) threads, load $(cut -d ' ' -f 1 /proc/loadavg) at the start" | tee -a "$table"
 build/bench/apps/probegi/probegi bench --backend vulkan "$@" | tee -a "$table"
 
-# Counters of a benchmark to rows of a table.
+# The counters of the benchmarks as rows of a table.
 {
     echo
     echo "| against its baselines, room of 22x14x32 x 144 rays | median |"

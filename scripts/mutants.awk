@@ -1,6 +1,6 @@
-# Lists the small changes (mutants) that scripts/mutate.sh tries on C++ files, one a line, separated by tabs: file, line,
-# column, length of what is replaced, and what stands there instead. Works on tokens, and relies on clang-format, which
-# puts blanks around binary operators and around no others.
+# Lists the small changes (mutants) that scripts/mutate.sh tries on C++ files, one per line, separated by tabs: file,
+# line, column, length of the replaced text, new text. Works on tokens and relies on clang-format, which puts spaces
+# around binary operators only.
 
 BEGIN {
     OFS = "\t"
@@ -28,7 +28,7 @@ function mutant(column, span, text) {
     print FILENAME, FNR, column, span, text
 }
 
-# The line with blanks in place of comments, strings and characters, so that columns stay; and a blank at its end.
+# The line with comments and literals replaced by spaces, which keeps the columns, and a space at the end.
 function code_of(line,    start) {
     while (match(line, /"([^"\\]|\\.)*"|'([^'\\]|\\.)*'/)) {
         start = RSTART
@@ -90,7 +90,7 @@ function change_tokens(    rest, offset, token, before, after) {
     }
 }
 
-# A term or a factor that is a name, a member or a call of few arguments.
+# Drops a term or a factor that is a name, a member or a call with few arguments.
 function drop_operands(    rest, offset, after) {
     rest = code
     offset = 0

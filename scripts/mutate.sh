@@ -1,39 +1,39 @@
 #!/usr/bin/env bash
-# Proves the tests: makes one small change to the code after the other, in a copy, and sees whether fast tests notice.
+# Tests the tests: makes small changes to a copy of the code, one at a time, and checks that the fast tests fail.
 set -euo pipefail
 
 usage() {
     cat <<'TEXT'
 Usage: scripts/mutate.sh [--seed N] [--count N] [--only PATH]... [--jobs N] [--list]
 
-Makes small changes (mutants: + becomes -, < becomes <=, 0.5f becomes its double, a term is gone, ...) to src/kernels,
-src/cpu, src/field and src/bvh, one at a time, and runs the fast unit tests on each. Ends with the share of mutants that
-tests noticed, which tests noticed how many, and each that none did. Exit code 1 where it is less than 90 %.
+Makes small changes (mutants: + becomes -, < becomes <=, 0.5f is doubled, a term is dropped, ...) to src/kernels,
+src/cpu, src/field and src/bvh, one at a time, and runs the fast unit tests on each. Prints the share of mutants that
+were detected, how many each test detected, and all that survived. The exit code is 1 if the share is below 90 %.
 
-  --seed N     which mutants; the same seed, count and code give the same ones (default 1)
-  --count N    how many that compile (default 100)
-  --only PATH  only of this file or folder; may be repeated
-  --jobs N     mutants at a time, each in a copy and build folder of its own (default: processors)
-  --list       prints the mutants to be tried and ends
+  --seed N     chooses the mutants; the same seed, count and code give the same ones (default 1)
+  --count N    number of mutants that compile (default 100)
+  --only PATH  change only this file or folder; may be repeated
+  --jobs N     mutants at a time, each in its own copy and build folder (default: number of processors)
+  --list       print the mutants and exit
 
-Works in build/mutate; nothing else of the project is touched. The first run builds for some minutes, later ones
-continue from there. Ctrl-C prints what is known so far.
+Works in build/mutate and touches nothing else. The first run builds for some minutes; later ones are incremental.
+Ctrl-C prints the results so far.
 
 Example: scripts/mutate.sh --seed 7 --count 300
 Example: scripts/mutate.sh --only src/kernels/lookup/probe_query.h --count 1000     (all of its mutants)
 TEXT
 }
 
-# Programs of unit tests that take seconds, cheapest first. Left out: cli, io, report, vulkan and the like, which know
-# nothing of these folders; analytic, backend, reference and render, which take minutes.
+# Unit test programs that take seconds, fastest first. Left out: cli, io, report, vulkan and others that do not test
+# these folders; analytic, backend, reference and render, which take minutes.
 programs=(kernels field geometry bvh cpu tracer)
-# What a program need not run: what takes longer than all the rest, or needs scenes from files.
+# Tests to skip: those that take longer than all the others, or need scene files.
 declare -A filter=(
     [bvh]='-EmbreeAgreement.*'
     [cpu]='-OwnEmitters.*:MovingScene.AMoveBuildsNoTriangles'
     [tracer]='-*Agreement*:*Scenes*:*Watertight*:*ManyAtOnce*:*TheBuildDoesNotDependOnThreads*'
 )
-# No formulas: what makes two languages of one text, and records that only shaders read.
+# Files without formulas: the macros that make kernels GLSL and C++, and structs that only shaders read.
 left_out='src/kernels/(language|abi/gpu_passes)\.h$'
 goal=90  # per cent
 
@@ -67,16 +67,16 @@ results=$scratch/results
 unset PROBEGI_SCENES
 export CCACHE_NOHASHDIR=1 LC_ALL=C
 
-# All mutants of the files asked for, in an order that the seed decides.
+# All mutants of the requested files, shuffled by the seed.
 shuffled_mutants() {
     local files
     files=$(git ls-files -- "${only[@]}" | grep -E '^src/.*\.(h|cpp)$' | grep -vE "$left_out") ||
-        die "there is nothing to change in ${only[*]}"
+        die "there are no files to change in ${only[*]}"
     # shellcheck disable=SC2086  # names of the project's sources have no blanks
     awk -f scripts/mutants.awk $files | sort --random-sort --random-source=<(yes "$seed" | head -c 4096)
 }
 
-# sync_copy FOLDER: the project's files as they are now; what has not changed keeps its time.
+# sync_copy FOLDER: copies the project's current files; unchanged ones keep their timestamps.
 sync_copy() {
     local files
     files=$(git ls-files --cached --others --exclude-standard | sort)
@@ -87,7 +87,7 @@ sync_copy() {
     (cd "$1" && find . -type f -printf '%P\n' | sort | comm -23 - <(echo "$files") | xargs -r rm)
 }
 
-# in_copy NUMBER COMMAND...: with the paths of a copy's build folder left out of what ccache compares.
+# in_copy NUMBER COMMAND...: runs the command so that ccache ignores the copy's absolute paths.
 in_copy() {
     CCACHE_BASEDIR=$scratch/$1 "${@:2}"
 }
@@ -104,11 +104,11 @@ build_copy() {
         --log-level=WARNING
     # shellcheck disable=SC2046  # a word for each target
     in_copy "$1" ninja -C "$scratch/$1/build" -j "$jobs" $(targets) ||
-        die "the project does not build as it is"
+        die "the unchanged project does not build"
 }
 
-# run_tests COPY PROGRAM SECONDS: exit code of the test program; its words in test.log of the copy. With a limit on
-# memory: a changed loop may never stop to allocate.
+# run_tests COPY PROGRAM SECONDS: returns the program's exit code; its output goes to test.log of the copy. Memory is
+# limited, since a mutated loop may allocate forever.
 run_tests() {
     (
         ulimit -v 16777216 -c 0
@@ -116,7 +116,7 @@ run_tests() {
     ) >"$scratch/$1/test.log" 2>&1
 }
 
-# The programs' own paths, and the seconds that each may take before a mutant counts as one that never ends.
+# Runs the unchanged programs, to set the seconds after which a mutant counts as one that never ends, and keeps copies.
 declare -A limit=()
 measure_unchanged() {
     local program begin
@@ -131,7 +131,7 @@ measure_unchanged() {
     done
 }
 
-# programs_of FILE: which could notice, those that stand nearest first.
+# programs_of FILE: programs that could detect a change of the file, the most likely first.
 programs_of() {
     local own=${1#src/}
     own=${own%%/*}
@@ -140,13 +140,13 @@ programs_of() {
     for program in "${programs[@]}"; do [[ $program == "$own" ]] || echo "$program"; done
 }
 
-# Lines "object file", for each file that goes into an object.
+# Prints lines "object file" for each file that an object depends on.
 list_includes() {
     ninja -C "$scratch/1/build" -t deps 2>/dev/null |
         awk '/^[^ ].*: #deps/ { object = $1; sub(/:$/, "", object) } /^ / && sub(/^.*tree\//, "") { print object, $0 }'
 }
 
-# change FILE LINE COLUMN LENGTH TEXT
+# change FILE LINE COLUMN LENGTH TEXT: applies a mutant.
 change() {
     TEXT=$5 awk -v line="$2" -v column="$3" -v span="$4" '
         NR == line {
@@ -157,7 +157,7 @@ change() {
     ' "$1"
 }
 
-# Whether a kernel's functions, used or not, become the same instructions as before: then nothing could notice.
+# Whether all of a kernel's functions compile to the same instructions as before, so that no test could fail.
 same_code() {
     [[ $2 == src/kernels/*.h ]] || return 1
     local folder
@@ -169,7 +169,7 @@ same_code() {
     cmp -s "$scratch/$1/unchanged.o" "$scratch/$1/tree.o"
 }
 
-# The test that failed, or the one that ran when the program crashed or its time was over.
+# The test that failed, or that was running when the program crashed or timed out.
 first_failure() {
     local failed
     failed=$(sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$1" | head -n 1)
@@ -196,7 +196,7 @@ verdict_on() {
     if [[ -z $touched ]] && same_code "$1" "$2"; then echo same; else echo survived; fi
 }
 
-# How many results have one of these verdicts.
+# The number of results with one of these verdicts.
 count_of() {
     cut -f 2 "$results" | grep -cE "^($(IFS='|' && echo "$*"))\b" || true
 }
@@ -209,7 +209,7 @@ tell_progress() {
         $(((seconds * (count - done) / done + 59) / 60)) "$line_end"
 }
 
-# The number of the next mutant of the common list; each is given to one worker.
+# Takes the number of the next mutant from the shared list, so that each goes to one worker.
 next_number() {
     flock "$scratch/next" sh -c 'n=$(cat "$0"); echo $((n + 1)) >"$0"; echo "$n"' "$scratch/next"
 }
@@ -231,7 +231,7 @@ work() {
     done
 }
 
-# The first $count that compile, whoever was how fast.
+# The first $count that compile, in the order of the list, so that results do not depend on the workers' speed.
 counted_results() {
     sort -n "$results" | awk -F '\t' -v count="$count" '{ n += $2 ~ /^killed|^survived/ } n <= count'
 }
@@ -284,11 +284,11 @@ main() {
     done
     mkdir -p "$scratch"
     exec 9>"$scratch/lock"
-    flock -n 9 || die "another run works in $scratch"
+    flock -n 9 || die "another run is using $scratch"
     for ((copy = 1; copy <= jobs; ++copy)); do build_copy "$copy"; done
     measure_unchanged
     list_includes >"$scratch/includes"
-    # Of files that are compiled.
+    # Only mutants of files that are compiled.
     shuffled_mutants | awk -F '\t' 'NR == FNR { sub(/^[^ ]* /, ""); compiled[$0] = 1; next } $1 in compiled' \
         "$scratch/includes" - >"$scratch/mutants"
     : >"$results"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# ctest where a skipped test is a failed one: every test of this project can run on every machine that ran setup.sh.
+# Runs ctest and fails if any test was skipped: all tests can run on every machine where setup.sh has run.
 # Usage: run_ctest.sh BUILD_FOLDER [ctest options]
 set -uo pipefail
 
@@ -9,7 +9,7 @@ log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 ctest --test-dir "$build" -j2 --output-on-failure --no-tests=error "$@" | tee "$log"
 verdict=${PIPESTATUS[0]}
-# ctest's own word for GTEST_SKIP(), a disabled test and a test whose program is missing.
+# ctest prints this for GTEST_SKIP(), disabled tests and missing programs.
 if grep -E '\*\*\*(Skipped|Not Run)|\((Skipped|Disabled|Not Run)\)' "$log" >/dev/null; then
     echo "run_ctest.sh: tests were skipped or not run, see above; none may be." >&2
     exit 1

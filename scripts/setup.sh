@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what a fresh Debian 12 lacks to build ProbeGI: `scripts/setup.sh build` for the tool, `scripts/setup.sh test`
-# for the tests and checks as well. Does nothing, and needs no rights, when everything is there.
+# Installs the packages that a fresh Debian 12 needs to build ProbeGI: `scripts/setup.sh build` for the tool,
+# `scripts/setup.sh test` for the tests and checks as well. If all are there, does nothing and needs no root rights.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/apt.sh
@@ -17,9 +17,9 @@ build_packages=(
 test_packages=(
     libgtest-dev libgmock-dev libbenchmark-dev
     git  # scripts/mutate.sh copies what it lists
-    vulkan-validationlayers vulkan-tools     # checked Vulkan; which devices there are
+    vulkan-validationlayers vulkan-tools     # validation; vulkaninfo
     chromium chromium-driver nodejs          # opens report.html
-    g++-mingw-w64-x86-64-posix wine64 wine   # the own-rays configuration for Windows, and what runs it
+    g++-mingw-w64-x86-64-posix wine64 wine   # builds and runs the own-rays engine for Windows
     clang-14 clang-format-14 libclang-rt-14-dev llvm-14  # sanitizers, fuzzing, format
 )
 

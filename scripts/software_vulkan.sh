@@ -1,14 +1,14 @@
-# Sourced by setup.sh: software Vulkan, so that every test runs everywhere, whatever GPU there is or is not.
+# Sourced by setup.sh: installs software Vulkan, so that every test runs on machines with any GPU or none.
 #
-# The tests name their drivers (tests/vulkan_test.cmake) and want two software ones: with ray query (Mesa 25.0's lavapipe)
-# and without (Mesa 22.3's). Debian 12 has 22.3 itself and 25.0 in its backports. 22.3 is unpacked into build/mesa-22.3.
-# 25.0 is installed, so that the tool has a device as well; but where a GPU answers its driver, which may come in the same
-# package, is its owner's business: there 25.0 is unpacked too, into build/mesa-25.0.
+# The tests name their drivers (tests/vulkan_test.cmake) and need two software ones: with ray query (lavapipe of Mesa
+# 25.0) and without (Mesa 22.3). Debian 12 has 22.3, and 25.0 in its backports. 22.3 is unpacked into build/mesa-22.3.
+# 25.0 is installed, so that the tool has a device as well. But on a machine with a working GPU, installing could
+# replace its driver, which may be in the same package: there 25.0 is unpacked too, into build/mesa-25.0.
 
 wanted_mesa=25.0
 old_mesa=22.3
 
-# Whether a Vulkan device answers that is not software.
+# Whether there is a Vulkan device other than a software one.
 gpu_answers() {
     local devices
     devices=$(timeout 60 vulkaninfo --summary 2>/dev/null || true)
@@ -19,14 +19,14 @@ is_debian_12() { (. /etc/os-release && [[ $ID == debian && ${VERSION_CODENAME:-}
 
 installed_mesa() { dpkg-query -W -f='${Version}' mesa-vulkan-drivers 2>/dev/null || true; }
 
-# The newest version of Mesa, at least 25.0, that apt knows of, or nothing.
+# Prints the newest version of Mesa that apt offers, if it is at least 25.0.
 offered_mesa() {
     local version
     version=$(apt-cache madison mesa-vulkan-drivers | awk '{print $3; exit}')
     dpkg --compare-versions "${version:-0}" ge "$wanted_mesa" && echo "$version" || true
 }
 
-# Debian 12's backports from the mirror, and with the key, that the system's own sources name.
+# Adds Debian 12's backports, with the mirror and key of the system's own sources.
 add_backports() {
     local mirror source key
     need_root "adding Debian 12's backports"
@@ -42,20 +42,20 @@ add_backports() {
 
 unpacked_driver() { ls build/mesa-"$1"/usr/lib/*/libvulkan_lvp.so 2>/dev/null || true; }
 
-# Whether a version is unpacked and finds its libraries.
+# Whether a version is unpacked and all its libraries are found.
 is_unpacked() {
     local driver
     driver=$(unpacked_driver "$1")
     [[ -n $driver ]] && ! grep -q 'not found' <<<"$(ldd "$driver")"
 }
 
-# unpack_mesa NAME VERSION: the software driver beside the system's, in build/mesa-NAME.
+# unpack_mesa NAME VERSION: unpacks a software driver into build/mesa-NAME, without installing it.
 unpack_mesa() {
     local name=$1 version=$2 folder=build/mesa-$1 driver package dependencies
     echo "Unpacking Mesa $version, software Vulkan for the tests, into $folder"
     rm -rf "$folder"
     mkdir -p "$folder"
-    # As the current user: the folder is not for apt's own user to write to.
+    # As the current user, since apt's own user may not write to the folder.
     (cd "$folder" && apt-get -q -o APT::Sandbox::User="$(id -un)" download "mesa-vulkan-drivers=$version") >"$apt_log" 2>&1 ||
         { tail -n 30 "$apt_log" >&2 && fail "apt-get could not download Mesa $version."; }
     package=$(ls "$folder"/*.deb)

@@ -1,11 +1,11 @@
 # Tests that need a Vulkan device. Each names the drivers that it runs on, so that no result depends on what else the
-# machine has. scripts/setup.sh sees to the software ones:
+# machine has. scripts/setup.sh installs the software ones:
 #   NAME...         software with ray query (Mesa 25.0, or the system's)
-#   mesa22.NAME...  software without (Mesa 22.3), but for tests of ray query
-#   gpu.NAME...     this machine's GPU where one answers; tests of ray query where it has that
-#   both.NAME...    the two software drivers in one list: those tests that look at lists of devices
+#   mesa22.NAME...  software without ray query (Mesa 22.3); not the tests of ray query
+#   gpu.NAME...     this machine's GPU, if it has one; tests of ray query only if the GPU supports it
+#   both.NAME...    the two software drivers in one list, for tests of lists of devices
 
-# Descriptions of drivers for the loader, by path: it would take two of the same name for one.
+# Driver manifests for the loader, by path: it would take two drivers with the same library name for one.
 function(describe_driver result name)
     set(${result} "" PARENT_SCOPE)
     file(GLOB libraries ${ARGN})
@@ -24,14 +24,13 @@ describe_driver(software_driver_file mesa-25.0 ${PROJECT_SOURCE_DIR}/build/mesa-
 if(NOT software_driver_file)
     describe_driver(software_driver_file software /usr/lib/*/libvulkan_lvp.so /usr/lib64/libvulkan_lvp.so)
 endif()
-# A property of every test, those of the tool and of the examples as well. Where there is no such driver: what the system
-# chooses.
+# Environment of every test, including those of the tool and the examples. Without such a driver, the system's choice.
 set(on_software "")
 if(software_driver_file)
     set(on_software ENVIRONMENT VK_DRIVER_FILES=${software_driver_file})
 endif()
 
-# What the system has besides software: whether a GPU can be used, and whether all there are have ray query.
+# The system's GPUs: whether any can be used, and whether all of them have ray query.
 set(gpu_environment "VK_LOADER_DRIVERS_DISABLE=*lvp_icd*")
 function(look_for_gpu)
     set(gpu_answers OFF PARENT_SCOPE)
@@ -55,11 +54,11 @@ function(look_for_gpu)
 endfunction()
 look_for_gpu()
 
-# On a driver other than the first: what does not ask a Vulkan device for anything is not run again.
+# On other drivers than the first, tests that do not use a Vulkan device are not run again.
 set(tests_without_device "*/cpu:*/embree:*/embreeMovable")
 set(tests_of_ray_query "*RayQuery*:*rayQuery*")
 
-# on_driver(NAME PREFIX FILTER ENVIRONMENT) registers the tests of test_NAME once more.
+# on_driver(NAME PREFIX FILTER ENVIRONMENT) registers the tests of test_NAME again.
 function(on_driver name prefix filter environment)
     gtest_discover_tests(test_${name} TEST_PREFIX ${prefix}.${name}. TEST_FILTER "${filter}"
         TEST_LIST test_${name}_${prefix} DISCOVERY_TIMEOUT 60

@@ -11,18 +11,18 @@ namespace probegi::accuracy {
 
 namespace {
 
-// The rooms of builtin:dark-room: each 5 x 2.8 x 5 m, left and right of a wall that is centred on x = 0.
+// The rooms of builtin:dark-room: each 5 x 2.8 x 5 m, on either side of a wall centred on x = 0.
 constexpr glm::vec3 kRoom(5.0f, 2.8f, 5.0f);
 constexpr int kPointsPerSide = 16;  ///< on each wall
 constexpr std::array<float, 4> kShifts{0.0f, 0.25f, 0.5f, 0.75f};
 constexpr int kUpdates = 24;  ///< of Field::converge
 
-/// One cell beyond the building on every side, 1 m apart, shifted by a part of a cell along every axis.
+/// Probes 1 m apart, one cell beyond the building on every side, shifted by a fraction of a cell along every axis.
 VolumeDesc shiftedGrid(float shift) {
     return {glm::vec3(-7, -1, -4) + glm::vec3(shift - 0.5f), glm::vec3(1), {16, 7, 10}};
 }
 
-/// The two ways of running a field.
+/// The two ways to fill a field.
 enum class Run { converge, update };
 
 Result<void> fill(Field& field, const Tracer& tracer, const Lighting& lighting, Run run) {

@@ -5,15 +5,15 @@
 
 namespace probegi::accuracy {
 
-/// Mean indirect irradiance on the walls of the sealed room over that on the walls of the sunlit room beside it. The
-/// sealed room is in truth black. Probes are 1 m apart; leaks depend on how the grid lies to the wall, so it is
-/// shifted.
+/// Mean indirect irradiance on the walls of the sealed room, which is really black, over that on the walls of the
+/// sunlit room beside it. Probes are 1 m apart. Leaks depend on where the wall cuts the grid, so several shifts of the
+/// grid are measured.
 struct LeakShare {
     double mean = 0;   ///< over the grid's shifts
     double worst = 0;  ///< of the grid's shifts
 };
 
-/// Updates after which what an engine runs, Field::update, is measured.
+/// Number of Field::update calls, the way engines fill a field, before measuring.
 inline constexpr int kRealtimeUpdates = 300;
 
 struct LeakResult {
@@ -23,7 +23,7 @@ struct LeakResult {
     LeakShare realtime;       ///< LeakGuard::moments after kRealtimeUpdates of Field::update
 };
 
-/// Errors: those of the passes.
+/// Errors: those of the field and its tracer.
 Result<LeakResult> measureLeak(const Context& context, float wallThickness);
 
 }  // namespace probegi::accuracy

@@ -24,7 +24,7 @@ struct Options {
     int samplesPerPixel = 256;
 };
 
-/// A scene of the tables, as one would give it to `probegi render`.
+/// A scene of the tables, as it would be passed to `probegi render`.
 struct Case {
     std::string name;
     tool::SceneOptions options;
@@ -50,7 +50,7 @@ tool::ReportSettings settingsOf(const Options& options) {
     tool::ReportSettings settings;
     settings.width = 480;
     settings.height = 270;
-    settings.diffuseOnly = true;  // what the field promises; gloss is another matter
+    settings.diffuseOnly = true;  // the field covers diffuse light only
     settings.seconds = 0;
     settings.samplesPerPixel = options.samplesPerPixel;
     settings.ratioProbes = 512;
@@ -58,7 +58,7 @@ tool::ReportSettings settingsOf(const Options& options) {
     return settings;
 }
 
-/// The table of irradiance at surfaces: the scenes above that have much to see, and two larger built-in ones.
+/// The table of irradiance at surfaces: the more complex of the scenes above, and two larger built-in ones.
 Result<std::string> surfaces(const Context& context, const Options& options) {
     std::vector<SurfaceRow> rows;
     for (const char* name : {"cornell", "house", "atrium", "sponza"}) {
@@ -82,7 +82,7 @@ struct MotionCase {
     int rays = 0;
     MotionScope scope = MotionScope::changes;
     FieldRules rules = FieldRules::measured;
-    std::string path{};  ///< empty: built in
+    std::string path{};  ///< empty: a built-in scene
     glm::vec3 sky{0.0f};
 };
 
@@ -102,8 +102,8 @@ Result<MotionResult> measureMotion(const Context& context, const MotionCase& row
     return measureMotion(context, row.name, loaded->scene, desc, row.scope);
 }
 
-/// The Cornell box on the grid of its tests at several numbers of rays, rooms lit from outside, and two scenes that are
-/// not built in, on grids so coarse that they take minutes.
+/// The Cornell box on the grid of its tests with several numbers of rays, rooms lit from outside, and two scenes from
+/// files, on grids coarse enough to finish in minutes.
 Result<std::string> motion(const Context& context, const Options& options) {
     const PlacementDesc cornell{.counts = {8, 8, 8}}, rooms{.targetProbes = 1500}, coarse{.targetProbes = 700};
     const std::string sponza = options.scenesFolder + "/sponza/sponza.glb",

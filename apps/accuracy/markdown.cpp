@@ -21,7 +21,7 @@ std::string differenceRow(const std::string& scene, const char* name, const Imag
                        d.ratio.high);
 }
 
-/// `of` and `exact` choose the layer that is compared.
+/// `of` and `exact` select the layer to compare.
 template <class Of>
 std::string differenceTable(const std::vector<MeasuredScene>& scenes, const char* title, const Of& of,
                             ImageDifference tool::RenderedScene::*exact) {

@@ -17,7 +17,7 @@ struct MeasuredScene {
 /// The generated part of docs/accuracy.md.
 std::string accuracyTables(const std::vector<MeasuredScene>& scenes, const std::vector<LeakResult>& leaks, int threads);
 
-/// Puts `tables` between the two marker lines of an existing file and leaves the rest as it is.
+/// Replaces what is between the two marker lines of an existing file by `tables`.
 /// Errors: fileUnreadable (no such file), malformed (no markers), writeFailed.
 Result<void> replaceBetweenMarkers(const std::filesystem::path& path, const std::string& tables);
 

@@ -13,8 +13,8 @@ namespace probegi::accuracy {
 namespace {
 
 constexpr int kPoints = 2000;
-constexpr int kStillUpdates = 60;     ///< over which flicker is taken
-constexpr int kReactionHorizon = 60;  ///< updates that are watched after a change
+constexpr int kStillUpdates = 60;     ///< over which flicker is measured
+constexpr int kReactionHorizon = 60;  ///< updates measured after a change
 constexpr float kWithin = 0.1f;       ///< of the change
 constexpr float kOff = 1e-6f;
 constexpr std::array<float, 4> kFactors{0.1f, 0.8f, 10.0f, kOff};
@@ -36,7 +36,7 @@ struct World {
     std::unique_ptr<Tracer> tracer;
 };
 
-/// A value, or an exception with the error's sentence for main() to print.
+/// The value; throws the error's message, which measureMotion() catches.
 template <class T>
 T must(Result<T> result) {
     if (!result) throw std::runtime_error(result.error().message);
@@ -85,7 +85,8 @@ std::vector<double> times(std::vector<double> light, double factor) {
     return light;
 }
 
-/// Settled in `before` (null: new); updates in `after` until no more than a tenth of the way is left, nor ever again.
+/// Settles a field in `before` (null: a new field), then counts updates in `after` until at most a tenth of the
+/// change is left for good.
 int updatesToFollow(const Context& context, const World* before, const World& after, const std::vector<double>& goal,
                     const FieldDesc& desc, const std::vector<FieldQuery>& points) {
     Field field = must(Field::create(context, desc));
@@ -128,7 +129,7 @@ Result<MotionResult> measureMotion(const Context& context, const std::string& na
         result.reactions.push_back({change, updatesToFollow(context, before, after, to, desc, points)});
     };
     follow(kChanges[0], nullptr, world, goal);
-    // Light is linear: scaled lamps have scaled goals.
+    // Light is linear, so scaling the lights scales the goal.
     for (std::size_t i = 0; i < kFactors.size(); ++i)
         follow(kChanges[1 + i], &world, World(context, scaled(scene, kFactors[i])), times(goal, kFactors[i]));
     const World dark(context, scaled(scene, kOff));
@@ -145,11 +146,9 @@ Result<MotionResult> measureMotion(const Context& context, const std::string& na
 std::string motionTable(const std::vector<MotionResult>& rows) {
     std::string table =
         "\n### Light in motion\n\n"
-        "Only `update()`, without a word to the field. Settled: mean irradiance at surface points after 300 updates "
-        "over "
-        "that of `converge`. Flicker: temporal standard deviation over mean, mean and 95th percentile of the points, "
-        "over "
-        "60 updates. Then updates after which no more than a tenth of a change is left, nor ever again.\n\n"
+        "Only `update()`, and the field is not told of the change. Settled: mean irradiance at surface points after "
+        "300 updates over that of `converge`. Flicker: temporal standard deviation over mean, mean and 95th percentile "
+        "of the points, over 60 updates. Then the updates until no more than a tenth of a change is left, for good.\n\n"
         "| scene | rules | probes | rays | settled | flicker | 95th |";
     for (const char* change : kChanges) table += fmt::format(" {} |", change);
     table += "\n|---|---|---:|---:|---:|---:|---:|";

@@ -16,8 +16,8 @@ struct SurfaceRow {
     SurfaceError error;
 };
 
-/// The rows of one scene on its automatic grid: converge(), and 300 updates where `updatesToo`.
-/// Errors: those of the passes.
+/// The rows of one scene on its automatic grid: converge(), and with `updatesToo` 300 updates.
+/// Errors: those of the field and its tracer.
 Result<std::vector<SurfaceRow>> measureSurface(const Context& context, const std::string& name,
                                                const tool::LoadedSetup& setup, bool updatesToo);
 

@@ -46,7 +46,7 @@ HdrImage displayDepth(HdrImage depth) {
     return linearFromDisplay(depth);
 }
 
-// Of the brightest channel: below it a pixel is black to most eyes and screens.
+// Display value of the brightest channel below which a pixel looks black on most screens.
 constexpr float kNearBlack = 0.03f;
 constexpr double kMostlyBlack = 0.9;
 
@@ -58,8 +58,8 @@ void warnWhereNearlyBlack(const std::string& path, const HdrImage& layer, const 
     const double share = double(dark) / double(layer.pixels.size());
     if (share < kMostlyBlack) return;
     printWarning(
-        fmt::format("{:.0f} % of '{}' is nearly black at exposure {:.3g}; raise --exposure, or look from somewhere "
-                    "else with --camera or --look-from: the camera may stand in a wall or where no light comes",
+        fmt::format("{:.0f} % of '{}' is nearly black at exposure {:.3g}; raise --exposure, or move the camera with "
+                    "--camera or --look-from: it may be inside a wall or where no light arrives",
                     std::floor(100 * share), path, toneMap.exposure));
 }
 

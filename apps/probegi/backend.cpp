@@ -61,7 +61,7 @@ Result<std::unique_ptr<Backend>> openBackend(const Context& context, const Backe
 
 std::filesystem::path shaderCacheFolder(const BackendOptions& options) {
     if (!options.shaderCache.empty()) return options.shaderCache;
-    // The XDG base directory specification: relative paths are to be ignored.
+    // The XDG base directory specification says to ignore relative paths.
     if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && std::filesystem::path(cache).is_absolute())
         return std::filesystem::path(cache) / "probegi";
     if (const char* home = std::getenv("HOME"); home && *home)

@@ -19,14 +19,14 @@ struct BackendOptions {
 
 void addBackendOptions(CLI::App& command, BackendOptions& options);
 
-/// What no device can make right, found before the work begins: throws CLI::ValidationError where an option of the
-/// Vulkan backend was given to the other one.
+/// Throws CLI::ValidationError if an option of the Vulkan backend was given to the CPU backend. Called before any work
+/// begins.
 void checkBackendOptions(const CLI::App& command, const BackendOptions& options);
 
-/// Errors: unsupported (no such device, what it lacks, or a program that was built without Vulkan).
+/// Errors: unsupported (no such device, a missing feature, or a program built without Vulkan).
 Result<std::unique_ptr<Backend>> openBackend(const Context& context, const BackendOptions& options);
 
-/// The shader cache that was asked for, else probegi in the user's cache folder; empty where the user has none.
+/// The folder of --shader-cache, or else probegi in the user's cache folder; empty if the user has none.
 std::filesystem::path shaderCacheFolder(const BackendOptions& options);
 
 }  // namespace probegi::tool

@@ -4,7 +4,7 @@
 
 namespace probegi::tool {
 
-// One function per command, each in a file of its own. A command leaves its exit code: 0, or 1 after a failure.
+// One function per command, each in its own file. A command sets `exitCode`: 0, or 1 after a failure.
 void addRenderCommand(CLI::App& app, int& exitCode);
 void addCompareCommand(CLI::App& app, int& exitCode);
 void addInfoCommand(CLI::App& app, int& exitCode);

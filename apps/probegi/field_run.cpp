@@ -43,7 +43,7 @@ void addFieldRunOptions(CLI::App& command, FieldRunOptions& options) {
     auto* frames =
         command
             .add_option("--frames", options.frames,
-                        "fill the probes as an engine does, by N real-time updates that forget old light bit by bit "
+                        "fill the probes as an engine does, by N real-time updates in which old light fades slowly "
                         "(default: average a still scene until converged)")
             ->type_name("N")
             ->check(inRange(1, 1e6));

@@ -97,7 +97,7 @@ std::string vectorText(const Json& v) {
 }
 
 void printLights(const Json& info) {
-    fmt::print("lights      {}{}\n", info["lights"].size(), info["lit"] ? "" : " and nothing else that shines");
+    fmt::print("lights      {}{}\n", info["lights"].size(), info["lit"] ? "" : " and no other light");
     for (const Json& light : info["lights"]) {
         fmt::print("  {:<12}intensity {}", light["type"].get<std::string>(), vectorText(light["intensity"]));
         if (light.contains("position")) fmt::print(" at {}", vectorText(light["position"]));
@@ -140,7 +140,8 @@ void printText(const Json& info) {
 }  // namespace
 
 void addInfoCommand(CLI::App& app, int& exitCode) {
-    CLI::App* command = app.add_subcommand("info", "say what is in a scene: triangles, lights, cameras, probe grid");
+    CLI::App* command =
+        app.add_subcommand("info", "print what a scene contains: triangles, lights, cameras, probe grid");
     struct Options {
         SceneOptions scene;
         bool json = false;

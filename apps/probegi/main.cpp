@@ -24,7 +24,7 @@ constexpr const char* kFirstSteps = R"(What to type first:
 Example: probegi render sponza.glb -o sponza.png --sun 0.2,-0.95,0.25,20 --sky 0.3,0.4,0.6
 Every command has its own help: probegi render --help)";
 
-// The help that was asked for: that of the innermost command on the command line.
+// The command whose help to print: the innermost one on the command line.
 const CLI::App& chosenCommand(const CLI::App& app) {
     const auto chosen = app.get_subcommands();
     return chosen.empty() ? app : *chosen.front();
@@ -43,7 +43,7 @@ int usageError(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App app("ProbeGI: real-time global illumination from light probes that know how far they see", "probegi");
+    CLI::App app("ProbeGI: real-time global illumination from light probes with visibility", "probegi");
     app.footer(kFirstSteps);
     app.set_version_flag("--version", "probegi " PROBEGI_VERSION);
     app.require_subcommand(0, 1);
@@ -79,14 +79,14 @@ int main(int argc, char** argv) {
     try {
         exitCode = run(argc, argv);
     } catch (const std::bad_alloc&) {
-        printError({probegi::ErrorCode::outOfMemory, "there is not enough memory for this; ask for less of it"});
+        printError({probegi::ErrorCode::outOfMemory, "not enough memory; use a smaller scene, picture or probe grid"});
     } catch (const std::exception& error) {
         const auto* system = dynamic_cast<const std::system_error*>(&error);
         if (std::ferror(stdout) && system)
-            printing = system->code();  // closing tells
+            printing = system->code();  // closeStandardOutput() reports it
         else
             printError({probegi::ErrorCode::invalidArgument,
-                        fmt::format("the program has met a defect of its own ({}); please report it", error.what())});
+                        fmt::format("internal error ({}); please report it", error.what())});
     }
     return closeStandardOutput(exitCode, printing);
 }

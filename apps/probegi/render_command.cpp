@@ -152,11 +152,11 @@ Result<void> render(const RenderOptions& options) {
     if (auto written = writeAov(options.output, *picture, options.aov, toneMap); !written) return written;
     if (!options.stats.empty())
         if (auto written = writeText(options.stats, statsJson(stats)); !written) return written;
-    // Statistics on the standard output are for a program to read.
+    // Print nothing else if the statistics go to standard output, which a program then reads.
     std::error_code none;
     if (setup->automaticExposure && isLight(options.aov) && options.output.ends_with(".png") &&
         !std::filesystem::equivalent(options.stats, "/dev/stdout", none))
-        fmt::print("exposure {:.4g}, found automatically; the same for another picture: --exposure {:.4g}\n",
+        fmt::print("exposure {:.4g}, chosen automatically; for the same in other pictures: --exposure {:.4g}\n",
                    toneMap.exposure, toneMap.exposure);
     return {};
 }
@@ -197,8 +197,8 @@ void addMethodOptions(CLI::App& command, RenderOptions& options) {
                                                           {"paper", FieldRules::paper}};
     command
         .add_option("--rules", options.rules,
-                    "the field's rules: those that came out nearest to the path tracer (measured, the default), or the "
-                    "DDGI paper's to the letter (paper)")
+                    "the field's rules: those that measured closest to the path tracer (measured, the default), or "
+                    "exactly the DDGI paper's (paper)")
         ->type_name("measured|paper")
         ->transform(oneOf(kRules));
     command.add_option("--rays", options.rays, "rays per probe and update, 8 to 4096")
@@ -209,17 +209,17 @@ void addMethodOptions(CLI::App& command, RenderOptions& options) {
     command.add_option("--spp", options.samplesPerPixel, "reference: samples per pixel (default 64 without --time)")
         ->type_name("N")
         ->check(inRange(1, 1e6));
-    command.add_option("--time", options.seconds, "reference: stop after so many seconds")
+    command.add_option("--time", options.seconds, "reference: stop after this many seconds")
         ->type_name("SECONDS")
         ->check(inRange(0.001, 1e6));
     static const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
     command
         .add_option("--guide", options.guide,
-                    "reference: converged probes tell paths where light comes from; the picture is the same but for "
-                    "its noise (default off: making the probes takes its time too)")
+                    "reference: guide paths by a converged field; changes only the picture's noise (default off: "
+                    "filling the field takes time too)")
         ->type_name("on|off")
         ->transform(oneOf(kOnOff));
-    command.add_option("--seed", options.seed, "another number, other noise; equal numbers, equal pictures")
+    command.add_option("--seed", options.seed, "random seed; equal seeds give equal pictures")
         ->type_name("N")
         ->check(wholeNumber())
         ->capture_default_str();

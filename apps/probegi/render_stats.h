@@ -7,7 +7,7 @@
 
 namespace probegi::tool {
 
-/// What --stats writes. A method without a field has no probes and no updates.
+/// The contents of --stats. A method without a field has no probes and no updates.
 struct RenderStats {
     int probes = 0;
     int raysPerProbe = 0;
@@ -16,14 +16,14 @@ struct RenderStats {
 };
 
 /// JSON with the keys probes, raysPerProbe, frames, converged (null with --frames and without a field), remaining (the
-/// estimate behind it, null where there is none), updateMs {trace, shade, blend, total} (medians per update, 0 without
+/// estimate behind it, null if there is none), updateMs {trace, shade, blend, total} (medians per update, 0 without
 /// updates), pictureMs, peakMemoryBytes.
 std::string statsJson(const RenderStats& stats);
 
-/// Median of a copy; 0 of nothing.
+/// 0 if there are no values.
 double median(std::vector<double> values);
 
-/// Stage by stage.
+/// Medians of each stage.
 UpdateTimes medianTimes(const std::vector<UpdateTimes>& updates);
 
 }  // namespace probegi::tool

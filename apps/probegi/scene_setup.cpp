@@ -29,7 +29,7 @@ bool hasEmission(const Scene& scene, const ScenePose& pose) {
     return false;
 }
 
-// Pictures of skies often go a little below zero at saturated colours; what is no number at all is refused.
+// Sky pictures often have slightly negative values at saturated colours, which become 0; NaN and infinity are errors.
 Result<void> cleanSky(HdrImage& image, const std::string& path) {
     constexpr float kBrightest = 1e20f;  // Sky::image
     for (glm::vec3& pixel : image.pixels) {
@@ -39,8 +39,8 @@ Result<void> cleanSky(HdrImage& image, const std::string& path) {
         pixel = glm::max(pixel, glm::vec3(0.0f));
         if (std::max({pixel.x, pixel.y, pixel.z}) > kBrightest)
             return fail(ErrorCode::malformed,
-                        fmt::format("--sky '{}' has a pixel of {:.3g} W/sr/m2; {:g} is the brightest that can be "
-                                    "computed with, repair the picture",
+                        fmt::format("--sky '{}' has a pixel of {:.3g} W/sr/m2; the limit is {:g}, repair the "
+                                    "picture",
                                     path, std::max({pixel.x, pixel.y, pixel.z}), kBrightest));
     }
     return {};
@@ -118,7 +118,7 @@ Result<PlacedCamera> makeCamera(const SceneOptions& options, const ScenePose& po
         const glm::vec3 from = options.lookFrom.empty() ? camera.position : *parseVector(options.lookFrom) - origin;
         const glm::vec3 at = options.lookAt.empty() ? from + camera.forward : *parseVector(options.lookAt) - origin;
         if (!(glm::distance(from, at) > 0))
-            return fail(ErrorCode::invalidArgument, "--look-at is where the camera stands; choose another point");
+            return fail(ErrorCode::invalidArgument, "--look-at is the camera's own position; choose another point");
         camera = lookAt(from, at, camera.yfov);
     }
     if (options.fovDegrees) camera.yfov = glm::radians(*options.fovDegrees);
@@ -139,7 +139,7 @@ Result<VolumeDesc> makeGrid(const SceneOptions& options, const Scene& scene, con
     return automaticGrid(scene, pose, placement, options.threads);
 }
 
-// How far a box reaches beyond the grid's outermost probes, in cells of the axis where it is farthest.
+// How far a box reaches beyond the grid's outermost probes, on the axis where that is most cells.
 struct Overhang {
     float cells = 0;
     float metres = 0;
@@ -154,15 +154,15 @@ Overhang overhang(const VolumeDesc& grid, glm::vec3 lower, glm::vec3 upper) {
     return most;
 }
 
-// Up to half a cell beyond the outermost probes their light is as good as between probes.
+// Up to half a cell beyond the outermost probes, the field is as accurate as between probes.
 constexpr float kHarmlessCells = 0.5f;
 
 std::vector<std::string> gridWarnings(const LoadedSetup& setup) {
     const Overhang surfaces = overhang(setup.grid, setup.pose.bounds.lower, setup.pose.bounds.upper);
-    if (surfaces.cells <= kHarmlessCells) return {};  // then nothing that a camera sees is outside
+    if (surfaces.cells <= kHarmlessCells) return {};  // then a camera sees no surface outside
     std::vector<std::string> sentences{
         fmt::format("the scene reaches {:.4g} m beyond its probe grid: surfaces there get the light "
-                    "of the nearest probes; lay a grid over all of it with --probes",
+                    "of the nearest probes; cover all of it with --probes",
                     surfaces.metres)};
     const Overhang camera = overhang(setup.grid, setup.camera.position, setup.camera.position);
     if (camera.cells > kHarmlessCells)
@@ -180,7 +180,7 @@ Result<LoadedScene> readScene(const SceneOptions& options) {
     return LoadedScene{std::move(*scene), {}, {}};
 }
 
-// By rays on the CPU whatever the backend, so that the grid is the same on all of them.
+// Traced on the CPU whatever the backend, so that the grid is the same on all backends.
 Result<VolumeDesc> automaticGrid(const Scene& scene, const ScenePose& pose, const PlacementDesc& placement,
                                  int threads) {
     auto byBounds = placeVolume(pose.bounds, placement);
@@ -220,13 +220,13 @@ Result<LoadedSetup> loadSetup(const SceneOptions& options) {
     if (!options.sky.empty() && setup.lighting.sky.textured()) setup.files.push_back(options.sky);
     if (!hasLight(*setup.scene, setup.pose, setup.lighting))
         return fail(ErrorCode::invalidArgument,
-                    fmt::format("'{}' has no light, its picture would be black; add one with --sun X,Y,Z,LUX, "
+                    fmt::format("'{}' has no light, so its picture would be black; add one with --sun X,Y,Z,LUX, "
                                 "--point X,Y,Z,R,G,B or --sky R,G,B",
                                 options.scene));
     if (triangleCount(*setup.scene, setup.pose) == 0)
         return fail(
             ErrorCode::invalidArgument,
-            fmt::format("'{}' has no triangles, there is nothing to light; choose another scene", options.scene));
+            fmt::format("'{}' has no triangles, so there is nothing to light; choose another scene", options.scene));
 
     const auto camera = makeCamera(options, setup.pose, setup.scene->origin);
     if (!camera) return camera.error();

@@ -15,7 +15,7 @@
 
 namespace probegi::tool {
 
-/// SCENE and everything on the command line that overrides what the scene says. Texts have passed their parser.
+/// SCENE and all options that override parts of it. The strings have passed their parsers.
 struct SceneOptions {
     std::string scene;      ///< a path, or builtin:NAME
     BuiltinParams builtin;  ///< --wall, --albedo, --emission, --power, --radius
@@ -26,7 +26,7 @@ struct SceneOptions {
     std::string lookFrom, lookAt;
     std::optional<float> fovDegrees;  ///< vertical
 
-    std::vector<std::string> suns, points;  ///< where given, they replace the scene's lights of their kind
+    std::vector<std::string> suns, points;  ///< if any, they replace the scene's lights of that type
     std::string sky;                        ///< R,G,B or a file
 
     std::string volume, probes;      ///< --volume, --probes
@@ -34,40 +34,40 @@ struct SceneOptions {
     ReadLimits limits;               ///< --unpack-limit
 };
 
-/// Adds SCENE, all overrides and --threads to a command.
+/// Adds SCENE, all overriding options and --threads to a command.
 void addSceneOptions(CLI::App& command, SceneOptions& options);
 
 /// Adds only SCENE, the built-in scenes' parameters and --time-of-scene.
 void addSceneArgument(CLI::App& command, SceneOptions& options);
 
-/// A scene ready to be traced: what the file says with the overrides applied.
+/// A scene ready to be traced, with the overriding options applied.
 struct LoadedSetup {
-    std::unique_ptr<Scene> scene;  ///< at an address that stays, for the tracer
+    std::unique_ptr<Scene> scene;  ///< at a fixed address, which the tracer keeps
     ScenePose pose;
-    Lighting lighting;  ///< lights of no intensity are left out
+    Lighting lighting;  ///< without lights of zero intensity
     PlacedCamera camera;
     VolumeDesc grid;
-    float exposure = 1.0f;              ///< that was asked for, or what the scene suggests
-    bool automaticExposure = false;     ///< of what is shown: from the picture
-    std::vector<std::string> warnings;  ///< of the reader, and of a grid that leaves surfaces out; one sentence each
-    std::vector<std::filesystem::path> files;  ///< all that were read
+    float exposure = 1.0f;              ///< as requested, or as the scene suggests
+    bool automaticExposure = false;     ///< choose it for the picture
+    std::vector<std::string> warnings;  ///< by the reader, and about surfaces outside the grid; one sentence each
+    std::vector<std::filesystem::path> files;  ///< all files that were read
 };
 
-/// Loads or makes the scene, and nothing else.
+/// Loads or builds the scene without applying options.
 Result<LoadedScene> readScene(const SceneOptions& options);
 
-/// The grid where neither the scene nor the command line has one: over the scene, with an eye to its walls.
+/// The grid used if neither the scene nor the command line has one: over the scene, placed by its walls.
 Result<VolumeDesc> automaticGrid(const Scene& scene, const ScenePose& pose, const PlacementDesc& placement = {},
                                  int threads = 0);
 
-/// The exposure at which a picture is shown: the setup's, or one that follows from the picture.
+/// The exposure to show a picture at: the setup's, or one chosen for the picture.
 float shownExposure(const LoadedSetup& setup, const HdrImage& color);
 
-/// Whether anything shines: a punctual light, a sky that is not black, an emissive triangle.
+/// Whether there is any light: a punctual light, a sky that is not black, an emissive triangle.
 bool hasLight(const Scene& scene, const ScenePose& pose, const Lighting& lighting);
 
-/// readScene, then the overrides. Warnings are also printed. A scene without any light is an error, for a picture of
-/// it would be black.
+/// readScene(), then applies the options. Warnings are also printed. A scene without any light is an error, since its
+/// picture would be black.
 Result<LoadedSetup> loadSetup(const SceneOptions& options);
 
 }  // namespace probegi::tool

@@ -6,7 +6,7 @@ namespace probegi::tool {
 
 Error builtWithoutVulkan() {
     return {ErrorCode::unsupported,
-            "this probegi was built without its Vulkan backend (PROBEGI_VULKAN is OFF); only --backend cpu is there"};
+            "this probegi was built without its Vulkan backend (PROBEGI_VULKAN is OFF); use --backend cpu"};
 }
 
 #if PROBEGI_HAS_VULKAN

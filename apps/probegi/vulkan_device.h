@@ -7,11 +7,11 @@
 
 namespace probegi::tool {
 
-/// What a program says that was built without Vulkan.
+/// The error of a program built without Vulkan.
 Error builtWithoutVulkan();
 
 #if PROBEGI_HAS_VULKAN
-/// The device that was asked for. Errors: unsupported, and --tracer ray-query on a device without it.
+/// Opens the requested device. Errors: unsupported, also for --tracer ray-query on a device without ray query.
 Result<vulkan::Device> openDevice(const Context& context, const BackendOptions& options);
 #endif
 

@@ -1,8 +1,9 @@
-// What a guide gains: variance x time of the path tracer with and without one, in interleaved runs of one thread.
+// The gain from guiding paths: variance x time of the path tracer with and without a guide, in interleaved runs on one
+// thread.
 //   probegi_guide_bench [--samples N] [--size WxH] [--rounds N] [--camera N] [--bounces N] [--edges N] SCENE ...
-// SCENE is builtin:NAME or a file. Times are those of the processor, so that a busy machine disturbs little. The gain
-// leaves the learning out, whose time stands beside it. --edges N measures, by N pairs of paths a pixel, what varies
-// within the pixels themselves, and gives the gain without that as well. --bounces N cuts the paths, to see where the
+// SCENE is builtin:NAME or a file. Times are CPU times, so that a busy machine disturbs little. The gain does not
+// include learning the guide, whose time is printed beside it. --edges N measures the variance within pixels, by N
+// pairs of paths per pixel, and prints the gain without it as well. --bounces N limits the paths, to see where the
 // variance and the time are.
 #include <fmt/format.h>
 
@@ -38,7 +39,7 @@ double processorSeconds() {
     return double(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// Of one sample a pixel: variance of the luminance and what it takes.
+/// Variance of the luminance, and time, of one sample per pixel.
 struct Cost {
     double variance = 0;  ///< mean over pixels, over the picture's mean squared
     double relative = 0;  ///< mean over pixels of variance over the pixel's own square
@@ -55,8 +56,8 @@ Result<Scene> readScene(const std::string& name) {
     return std::move(loaded->scene);
 }
 
-/// Weighs the variances of pixels. The light of each is taken from a picture of its own: a pixel's square from the
-/// samples that also say its variance is small where the light was missed.
+/// Weights the variances of pixels. The light of each comes from a separate picture: samples that missed the light
+/// underestimate both a pixel's square and its variance.
 class Scale {
 public:
     explicit Scale(const HdrImage& picture) {
@@ -82,7 +83,7 @@ Cost measure(const PathTracer& tracer, ReferenceDesc desc, const Field* guide, c
         auto picture = tracer.render(what).value();
         return std::pair(std::move(picture), processorSeconds() - start);
     };
-    // A picture of few pixels is little more than the making of the guide.
+    // With few pixels, nearly all of the time is for making the guide.
     ReferenceDesc small = desc;
     small.picture.width = 16;
     small.picture.height = 9;
@@ -99,8 +100,8 @@ Cost measure(const PathTracer& tracer, ReferenceDesc desc, const Field* guide, c
     return cost;
 }
 
-/// What varies within the pixels: the variance that stays however well a path goes on from where its camera ray ended.
-/// Two paths from the same hit share it and nothing else.
+/// Variance within the pixels: what remains however well paths continue from the hits of their camera rays. It is the
+/// only thing that two paths from the same hit have in common.
 Cost edgeVariance(const Transport& transport, const PictureDesc& picture, int count, const Scale& scale) {
     const PinholeCamera camera(picture);
     Cost cost;

@@ -1,6 +1,6 @@
-// Baseline of the blend: eq. 1 as it stands in the paper, a thread for every texel of every probe. Each goes over all
-// rays of its probe and derives their weights where it uses them: a cosine for irradiance, a power for visibility.
-// What is done with the means (encoding, hysteresis, dither, border) is the library's own.
+// Baseline of the blend: eq. 1 as in the paper, with a thread for each texel of each probe. Each loops over all rays of
+// its probe and computes their weights on the fly: a cosine for irradiance, a power for visibility. The rest (encoding,
+// hysteresis, dither, border) is the library's.
 #include "vulkan/shaders/ray_data.glsl"
 #include "vulkan/shaders/volume.glsl"
 
@@ -73,7 +73,7 @@ void blendVisibility(int probe, ivec2 at) {
     storeVisibility(probe, at, sum * normalisingFactor(weights));
 }
 
-// Irradiance of all probes, then visibility of all probes: no group does both with maps of 8x8 and 16x16.
+// Irradiance of all probes, then visibility of all probes: with maps of 8x8 and 16x16 no group has both.
 void main() {
     const int irradianceSize = probegiField.irradianceTexels;
     const int visibilitySize = probegiField.visibilityTexels;

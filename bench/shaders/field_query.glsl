@@ -1,4 +1,4 @@
-// main() of a query pass with the push constants and buffers of src/vulkan/shaders/query.comp. Whoever includes this
+// main() of a query pass with the push constants and buffers of src/vulkan/shaders/query.comp. The including shader
 // defines queryIrradiance().
 layout(push_constant, scalar) uniform Push {
     QueryPush push;

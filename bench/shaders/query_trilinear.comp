@@ -1,5 +1,5 @@
-// Baseline of the query, and its floor: eight probes weighted by distance along the axes alone, without any leak guard.
-// Light leaks through every wall.
+// Baseline of the query, and its lower limit: eight probes with trilinear weights only and no leak guard, so that light
+// leaks through every wall.
 #include "vulkan/shaders/volume.glsl"
 
 #include "kernels/abi/gpu_passes.h"

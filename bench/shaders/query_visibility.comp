@@ -1,5 +1,5 @@
-// Baseline of the query: the eight probes of the cage with their visibility, as section 2.2 of the DDGI paper has it:
-// no shares of backfaces, no count, no wider search.
+// Baseline of the query: the eight probes of the cage with their visibility, as in section 2.2 of the DDGI paper,
+// without backface shares, counting and fallback.
 #include "vulkan/shaders/volume.glsl"
 
 #include "kernels/abi/gpu_passes.h"

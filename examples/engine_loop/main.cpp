@@ -25,7 +25,7 @@ Result<float> meanOnWalls(const Field& field, std::span<const FieldQuery> points
 /// Runs the loop with the lamp unchanged; returns the walls' mean indirect irradiance at the end.
 Result<float> playFrames(Field& field, const Tracer& tracer, const Lighting& lighting, const Room& room) {
     const std::vector<FieldQuery> points = room.wallPoints();
-    field.control().notify(FieldEvent::largeLightChange);  // follow faster for some frames
+    field.control().notify(FieldEvent::largeLightChange);  // adapts faster for some frames
     for (int frame = 1; frame <= kFramesPerSwitch; ++frame) {
         const auto times = field.update(tracer, lighting);
         if (!times) return times.error();
@@ -57,7 +57,7 @@ Result<bool> runGame() {
     const auto dark = playFrames(*field, **tracer, {}, room);
     if (!dark) return dark.error();
 
-    // All light of the lamp ends in the walls, which reflect a share `albedo` of what they receive, repeatedly.
+    // The walls absorb all of the lamp's light in the end, and reflect a share `albedo` of it at each bounce.
     const float flux = 4 * kPi * kLamp.intensity.y;
     const float truth = flux / room.area() * Room::kAlbedo / (1 - Room::kAlbedo);
     std::printf("lit: %.3f W/m^2 (energy conservation: %.3f); dark: %.4f\n", *lit, truth, *dark);

@@ -16,7 +16,7 @@ static int run() {
     FieldDesc desc;
     desc.volumes = {placeVolume(pose.bounds, {.targetProbes = 1000}).value()};
     Field field = Field::create(context, desc).value();
-    for (int frame = 0; frame < 200; ++frame) {  // an engine does one update a frame
+    for (int frame = 0; frame < 200; ++frame) {  // an engine does one update per frame
         field.update(*tracer, lighting).value();
     }
 

@@ -9,11 +9,11 @@ struct House {
     static constexpr float kRoom = 4, kHeight = 3, kWall = 0.2f;
 
     House();
-    /// With the door opened by an angle in radians; 0: shut.
+    /// The pose with the door opened by an angle in radians; 0: shut.
     probegi::ScenePose poseWithDoor(float angle) const;
-    /// Queries all over the walls of the second room.
+    /// Points all over the walls of the second room.
     std::vector<probegi::FieldQuery> secondRoom() const;
 
     probegi::Scene scene;
-    int door = -1;  ///< its node
+    int door = -1;  ///< node index
 };

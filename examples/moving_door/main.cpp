@@ -1,5 +1,5 @@
-// A door opens and shuts: each frame the tracer gets its pose and rebuilds nothing else; the field is notified that
-// something large moves. The path tracer provides the reference for the room behind the door.
+// A door opens and shuts: each frame the tracer gets its pose and rebuilds nothing else; the field is notified that a
+// large object moves. The path tracer provides the reference for the room behind the door.
 #include <chrono>
 #include <cstdio>
 

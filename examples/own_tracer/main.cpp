@@ -1,4 +1,4 @@
-// A field updated with an engine's own rays: the engine keeps its ray tracer and passes in the results, and ProbeGI
+// A field updated with an engine's own rays: the engine keeps its ray tracer and passes the results in, and ProbeGI
 // runs on the engine's jobs. Needs only GLM and Highway. Writes own_tracer.png if ProbeGI was built with file formats,
 // and checks points whose light is known.
 #include <probegi/probegi.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kPi = 3.14159265f;
 
-/// Radiance that a surface reflects: sun, and the field so far (so each update adds a bounce).
+/// Radiance reflected by a surface, from the sun and the field so far (so each update adds a bounce).
 glm::vec3 shade(const SphereWorld& world, const Field& field, const SphereWorld::Surface& surface, glm::vec3 toViewer) {
     const glm::vec3 indirect = field.irradiance({surface.position, surface.normal, toViewer});
     return surface.albedo / kPi * (world.sunlight(surface) + indirect);
@@ -56,7 +56,7 @@ Result<UpdateTimes> updateOnce(const SphereWorld& world, Field& field, std::vect
     return image;
 }
 
-/// Checks against answers that can be worked out by hand.
+/// Checks results that can be derived by hand.
 bool lightIsRight(const SphereWorld& world, const Field& field) {
     const auto e = [&](glm::vec3 position, glm::vec3 normal) { return field.irradiance({position, normal}); };
     const glm::vec3 open = e({0, 0, -3.5f}, {0, 1, 0});  // sees nearly all of the sky

@@ -81,7 +81,7 @@ void EngineDevice::makeDevice() {
     if (rayQuery) {
         m_deviceExtensions = {VK_KHR_RAY_QUERY_EXTENSION_NAME, VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
                               VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
-    } else {  // unknown structures must not be passed to a driver
+    } else {  // drivers must not be passed structures they do not know
         m_created.unlink<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>();
         m_created.unlink<vk::PhysicalDeviceRayQueryFeaturesKHR>();
     }

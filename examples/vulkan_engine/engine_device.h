@@ -4,7 +4,7 @@
 #include <vulkan/vulkan_raii.hpp>
 
 /// The engine's own Vulkan instance, device and queue, independent of ProbeGI. createInfo() and instanceExtensions()
-/// are what it enabled, for Device::adopt().
+/// return what it enabled, for Device::adopt().
 class EngineDevice {
 public:
     EngineDevice();

@@ -25,7 +25,7 @@ FrameRing::Frame& FrameRing::begin() {
     m_current = 1 - m_current;
     Frame& frame = m_frames[m_current];
     finish(frame);
-    // Read the profiler after its command buffer has finished, before that is recorded again.
+    // The profiler can be read when its command buffer has finished, until that is recorded again.
     const std::vector<PassTime> times = frame.profiler.read().value();
     for (const PassTime& pass : times) {
         m_times[pass.name].first += pass.milliseconds;

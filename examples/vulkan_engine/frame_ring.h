@@ -22,7 +22,7 @@ public:
     FrameRing& operator=(const FrameRing&) = delete;
     ~FrameRing() { vkDeviceWaitIdle(*m_engine.device()); }
 
-    /// The next frame, once the GPU has finished with it; its command buffer is recording.
+    /// Waits until the GPU has finished with the next frame, and returns it with its command buffer in recording state.
     Frame& begin();
     void submit();
     /// Waits until all submissions have finished.

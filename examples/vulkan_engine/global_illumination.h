@@ -14,7 +14,7 @@ public:
     GlobalIllumination(const probegi::Context& context, const EngineDevice& engine, MemoryPool& pool,
                        const FrameData& start);
 
-    /// Once, in a command buffer before all others; when it has finished, the staging memory can be released.
+    /// Call it once, in the first command buffer; when that has finished, the staging memory can be released.
     void recordUpload(const vk::raii::CommandBuffer& commands);
     void releaseStaging();
     /// One update of both volumes. `frame`: address of the same data, visible to compute shaders.

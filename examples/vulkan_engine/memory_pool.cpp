@@ -52,7 +52,7 @@ MemoryPool::Block& MemoryPool::blockFor(const VkMemoryRequirements& needs, std::
 
 VkResult MemoryPool::allocate(const VkMemoryRequirements& wanted, MemoryUse use, Allocation& out) {
     VkMemoryRequirements needs = wanted;
-    needs.alignment = std::max(needs.alignment, m_granularity);  // a buffer may be next to an image
+    needs.alignment = std::max(needs.alignment, m_granularity);  // since buffers and images may be neighbours
     needs.size = alignUp(needs.size, m_granularity);
     try {
         Block& block = blockFor(needs, memoryType(needs.memoryTypeBits, use));
@@ -62,7 +62,7 @@ VkResult MemoryPool::allocate(const VkMemoryRequirements& wanted, MemoryUse use,
         out.userData = &block;
         block.used = out.offset + needs.size;
         ++block.alive;
-    } catch (const vk::SystemError& error) {  // callbacks do not throw
+    } catch (const vk::SystemError& error) {  // callbacks must not throw
         return VkResult(error.code().value());
     }
     return VK_SUCCESS;

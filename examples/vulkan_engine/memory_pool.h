@@ -5,8 +5,8 @@
 #include <list>
 #include <vulkan/vulkan_raii.hpp>
 
-/// A trivial stand-in for the engine's allocator: large blocks, each allocated front to back and reused when nothing in
-/// it is alive. callbacks() exposes it to ProbeGI.
+/// A minimal stand-in for the engine's allocator: large blocks, each filled from front to back and reused once it is
+/// empty. callbacks() exposes it to ProbeGI.
 class MemoryPool {
 public:
     MemoryPool(const vk::raii::PhysicalDevice& physical, const vk::raii::Device& device);
@@ -16,7 +16,7 @@ public:
                       probegi::vulkan::Allocation& out);
     void free(const probegi::vulkan::Allocation& allocation);
 
-    int allocations() const;  ///< alive
+    int allocations() const;  ///< currently alive
     std::size_t bytesUsed() const;
     std::size_t bytesOfBlocks() const;
 

@@ -36,7 +36,7 @@ OwnRays::OwnRays(const EngineDevice& engine, MemoryPool& pool, const vulkan::Gpu
 
 void OwnRays::record(const vk::raii::CommandBuffer& commands, const vulkan::GpuField& volume,
                      vk::DeviceAddress frame) const {
-    // The directions change every frame. Written by the command buffer itself, they need no copy a frame in flight.
+    // The directions change every frame. They are part of the command buffer, so no copy per frame in flight is needed.
     const std::span<const glm::vec3> directions = volume.control().rayDirections();
     order(commands, kComputeUse, kTransferWrite);
     commands.updateBuffer<glm::vec3>(*m_directions.buffer, 0, {std::uint32_t(directions.size()), directions.data()});

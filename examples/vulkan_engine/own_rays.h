@@ -9,7 +9,7 @@
 /// Ray data that the engine traces in its own compute shader (shaders/trace_probes.comp).
 class OwnRays {
 public:
-    /// For updates of `volume`, which must outlive this.
+    /// Allocates for updates of `volume`, which must outlive this.
     OwnRays(const EngineDevice& engine, MemoryPool& pool, const probegi::vulkan::GpuField& volume);
 
     /// Traces the rays of the next update; its data is visible to compute shaders afterwards. `frame`: address of

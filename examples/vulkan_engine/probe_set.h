@@ -9,7 +9,7 @@ class ProbeSet {
 public:
     explicit ProbeSet(const vk::raii::Device& device);
 
-    /// Selects the volume. Not while a command buffer with the set is in flight.
+    /// Selects the volume. Do not call it while a command buffer that uses the set is in flight.
     void write(const probegi::vulkan::GpuField& volume) { volume.writeQueryBindings(*m_set, 0); }
     vk::DescriptorSetLayout layout() const { return *m_layout; }
     vk::DescriptorSet operator*() const { return *m_set; }

@@ -145,7 +145,7 @@ void Renderer::recordGBuffer(const vk::raii::CommandBuffer& commands, vk::Device
 }
 
 void Renderer::recordShading(const vk::raii::CommandBuffer& commands, vk::DeviceAddress frame) const {
-    // The last update ended with a full barrier, so reading the probes needs no other.
+    // The last update ended with a full barrier, so reading the probes needs none.
     const auto begin =
         transition(m_picture, kTransferRead, vk::ImageLayout::eUndefined, kShadeWrite, vk::ImageLayout::eGeneral);
     commands.pipelineBarrier2(vk::DependencyInfo().setImageMemoryBarriers(begin));

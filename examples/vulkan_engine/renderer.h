@@ -11,10 +11,10 @@
 /// The engine's renderer: a rasterised G-buffer, then one compute pass that shades it and queries the probes.
 class Renderer {
 public:
-    /// `size`: of the G-buffer. The picture is twice as wide: without the probes, with them.
+    /// `size`: of the G-buffer. The picture is twice as wide: without the probes on the left, with them on the right.
     Renderer(const EngineDevice& engine, MemoryPool& pool, vk::Extent2D size);
 
-    /// Selects the volume to query. Not while a frame is in flight.
+    /// Selects the volume to query. Do not call it while a frame is in flight.
     void useProbes(const probegi::vulkan::GpuField& volume) { m_probes.write(volume); }
     /// `frame`: address of FrameData.
     void recordGBuffer(const vk::raii::CommandBuffer& commands, vk::DeviceAddress frame) const;

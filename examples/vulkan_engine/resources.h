@@ -6,7 +6,7 @@
 
 /// Buffers, images and pipelines of the engine, with memory from its pool.
 
-/// Memory of the pool, returned on destruction.
+/// Memory from the pool, returned on destruction.
 class PoolMemory {
 public:
     PoolMemory(MemoryPool& pool, const VkMemoryRequirements& needs, probegi::vulkan::MemoryUse use);
@@ -48,7 +48,7 @@ struct GpuImage {
     vk::raii::ImageView view;
 };
 
-/// One side of a barrier: stages, and what they do with memory.
+/// One side of a barrier: stages and their memory accesses.
 struct Access {
     vk::PipelineStageFlags2 stages;
     vk::AccessFlags2 access;

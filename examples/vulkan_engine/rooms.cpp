@@ -90,12 +90,12 @@ FieldDesc fieldDesc() {
     FieldDesc desc;
     // Walls lie between probes, and a layer of probes outside of them: 980 in all.
     desc.volumes = {{.origin = {-4.875f, -0.45f, -3.375f}, .spacing = glm::vec3(0.75f), .counts = {14, 7, 10}}};
-    desc.fixedRays = 0;  // the engine's own rays bring none, and both volumes are to follow alike
+    desc.fixedRays = 0;  // the engine's rays have none, and both volumes should adapt alike
     return desc;
 }
 
 FieldSettings fieldSettings() {
-    return {.hysteresis = 0.9f, .visibilityHysteresis = 0.9f};  // a short film: follow it closely
+    return {.hysteresis = 0.9f, .visibilityHysteresis = 0.9f};  // the animation is short: adapt quickly
 }
 
 std::vector<FieldQuery> questionsIn(const FrameData& frame, int room) {

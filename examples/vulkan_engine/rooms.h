@@ -17,7 +17,7 @@ struct Box {
 inline constexpr int kBoxes = 17;
 inline constexpr int kFrontWalls = 1;  ///< the first box: it blocks light, but is hidden from the camera
 inline constexpr int kCrate = kBoxes - 1;
-inline constexpr glm::vec3 kEye{0, 2.9f, 17};  ///< where the camera stands, outside, with a long lens
+inline constexpr glm::vec3 kEye{0, 2.9f, 17};  ///< camera position, outside the house
 
 /// Per-frame data for shaders.
 struct FrameData {
@@ -32,12 +32,12 @@ struct FrameData {
 /// The engine's state at a time 0..1 of its animation: the sun rises, the crate slides.
 FrameData frameAt(float time, float aspect);
 
-/// The same for ProbeGI: geometry once, lights and poses as they change.
+/// The scene for ProbeGI: geometry once, lights and poses as they change.
 probegi::Scene sceneOf(const FrameData& frame);
 probegi::ScenePose poseOf(const probegi::Scene& scene, const FrameData& start, const FrameData& now);
 probegi::Lighting lightingOf(const FrameData& frame);
 probegi::FieldDesc fieldDesc();
 probegi::FieldSettings fieldSettings();
 
-/// Queries all over a room (0 with the hole in its roof, 1 behind the door), in the six directions.
+/// Points all over a room (0: the one with the hole in its roof, 1: the other), each facing the six axis directions.
 std::vector<probegi::FieldQuery> questionsIn(const FrameData& frame, int room);

@@ -4,8 +4,7 @@ namespace probegi {
 
 Result<std::unique_ptr<Backend>> openVulkanBackend(const Context&, const BackendDesc&) {
     return fail(ErrorCode::unsupported,
-                "this ProbeGI was built without its Vulkan backend (PROBEGI_VULKAN is OFF); only BackendKind::cpu is "
-                "there");
+                "this ProbeGI was built without its Vulkan backend (PROBEGI_VULKAN is OFF); use BackendKind::cpu");
 }
 
 }  // namespace probegi

@@ -1,4 +1,5 @@
-// Field::converge against closed forms, where it used to stop early: many bounces, and rooms that others outshine.
+// Field::converge against closed forms in cases where it once stopped early: many bounces, and dim rooms beside bright
+// ones.
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
@@ -12,7 +13,7 @@ constexpr float kPi = 3.14159265f;
 
 // Closed box of albedo a and emission Le: E = pi Le / (1 - a) at every point and normal.
 TEST(FieldConverge, furnacesHaveTheirClosedForm) {
-    // A hundred bounces multiply the noise of one by a hundred: at 0.99 seeds differ by 2 %.
+    // A hundred bounces multiply noise by a hundred: at albedo 0.99 seeds differ by 2 %.
     for (const auto& [albedo, bound] :
          {std::pair{0.5f, 0.01}, {0.8f, 0.01}, {0.9f, 0.01}, {0.95f, 0.01}, {0.99f, 0.03}}) {
         test::FieldScene s("furnace", {.albedo = albedo}, {.counts = {6, 6, 6}}, FieldDesc{.raysPerProbe = 64});
@@ -49,7 +50,7 @@ Scene twoFurnaces(const BuiltinParams& bright, const BuiltinParams& dim, float d
 TEST(FieldConverge, aDarkRoomBesideABrightOneHasItsClosedForm) {
     const BuiltinParams bright{.albedo = 0.5f, .emission = 10}, dim{.albedo = 0.9f, .emission = 0.01f};
     constexpr float kDistance = 8;
-    // Half a metre inside each box at the walls; the probes between the boxes see backs alone.
+    // The outermost probes of each box are half a metre from its walls; those between the boxes see backs only.
     const VolumeDesc grid{{-1.5f, 0.5f, -1.5f}, glm::vec3(1), {12, 3, 4}};
     test::FieldScene s(twoFurnaces(bright, dim, kDistance), grid, FieldDesc{.raysPerProbe = 64});
     const auto done = s.field.converge(*s.tracer, s.lighting, 0.01f, 128);
@@ -66,8 +67,8 @@ TEST(FieldConverge, aDarkRoomBesideABrightOneHasItsClosedForm) {
     }
 }
 
-// A lamp that few rays find is noisy for long: the cap is hit, and said to be.
-TEST(FieldConverge, aCapThatIsHitIsTold) {
+// A lamp that few rays hit stays noisy for long, so the cap is reached, which must be reported.
+TEST(FieldConverge, reachingTheCapIsReported) {
     test::FieldScene s("cornell", {}, {.counts = {6, 6, 6}}, FieldDesc{.raysPerProbe = 16});
     int reported = 0;
     const auto done = s.field.converge(*s.tracer, s.lighting, 1e-3f, 24, [&](const UpdateTimes&) { ++reported; });
@@ -78,7 +79,7 @@ TEST(FieldConverge, aCapThatIsHitIsTold) {
     EXPECT_GT(done->remaining, 1e-3f);
 }
 
-// Light that was there before is forgotten, brighter or darker.
+// Earlier light, brighter or darker, is forgotten.
 TEST(FieldConverge, forgetsOlderLight) {
     for (const float before : {1e-3f, 1e3f}) {
         test::FieldScene old("furnace", {.albedo = 0.8f, .emission = before}, {.counts = {4, 4, 4}},

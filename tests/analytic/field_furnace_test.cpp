@@ -22,7 +22,7 @@ class FieldFurnace : public testing::TestWithParam<FurnaceCase> {};
 // Closed box of albedo a and emission Le: E = pi Le / (1 - a) at every point and normal, to 1 %.
 TEST_P(FieldFurnace, everyPointHasTheClosedForm) {
     const auto [albedo, emission] = GetParam();
-    // What is missing shrinks with (1 - (1 - hysteresis) (1 - albedo))^frames.
+    // The missing light shrinks as (1 - (1 - hysteresis) (1 - albedo))^frames.
     test::FieldScene s("furnace", {.albedo = albedo, .emission = emission}, {.counts = {6, 6, 6}},
                        FieldSetup({}, {.hysteresis = 0.8f}));
     s.run(int(30 / (1 - albedo)));
@@ -35,8 +35,8 @@ INSTANTIATE_TEST_SUITE_P(Levels, FieldFurnace,
                                          FurnaceCase{0.5f, 1}, FurnaceCase{0.5f, 1e3f}, FurnaceCase{0.9f, 1e-3f},
                                          FurnaceCase{0.9f, 1}, FurnaceCase{0.9f, 1e3f}));
 
-// Storage must keep energy in both directions: after a change of brightness the plain hysteresis reaches the new level
-// from below and from above, in steps far below the storage's own.
+// Storage must preserve energy in both directions: after a change of brightness, plain hysteresis reaches the new level
+// from below and from above, in steps far smaller than those of the storage format.
 TEST(FieldLevels, brighteningAndDarkeningBothArrive) {
     for (const float hysteresis : {0.97f, 0.99f})
         for (const auto& [from, to] :
@@ -51,7 +51,7 @@ TEST(FieldLevels, brighteningAndDarkeningBothArrive) {
                 return std::vector<RayDatum>(27 * std::size_t(desc.raysPerProbe), {glm::vec3(radiance), 1.0f});
             };
             ASSERT_TRUE(field.update(data(from)));
-            // The distance left shrinks with hysteresis^n: 4.6 time constants for 1 %, more for a change of 1e6.
+            // The remaining difference shrinks as hysteresis^n: 4.6 time constants for 1 %, more for a change of 1e6.
             const int frames = int((from / to > 100 || to / from > 100 ? 12 : 7) / (1 - hysteresis));
             for (int i = 0; i < frames; ++i) ASSERT_TRUE(field.update(data(to)));
             for (const glm::vec3 n : {glm::vec3(0, 1, 0), glm::vec3(0.6f, 0, 0.8f)})

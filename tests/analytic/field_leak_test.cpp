@@ -12,7 +12,7 @@ std::vector<FieldQuery> innerFaces(float x0, float x1) {
 }
 
 // Light in the sealed room of dark-room over that in the sunlit one, with probes a metre apart; `shift` moves the grid,
-// since a leak depends on where probes and walls meet.
+// since leaks depend on where the walls are between probes.
 double measureRooms(LeakGuard guard, float wallThickness, glm::vec3 shift) {
     test::FieldSetup desc;
     desc.guard = guard;
@@ -35,7 +35,7 @@ TEST(FieldLeak, momentsKeepASealedRoomDark) {
     for (const glm::vec3 shift : kShifts) EXPECT_LT(measureRooms(LeakGuard::moments, 0.10f, shift), 0.004) << shift.x;
 }
 
-// Walls of a fiftieth and a twentieth of the probes' distance: the mean over the shifts, since one alone says little.
+// Walls of a fiftieth and a twentieth of the spacing. The mean over several shifts, since one alone says little.
 TEST(FieldLeak, thinWallsHoldToo) {
     for (const auto& [thickness, bound] : {std::pair(0.02f, 0.01), std::pair(0.05f, 0.006)}) {
         double share = 0;

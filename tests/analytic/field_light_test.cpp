@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kPi = 3.14159265f;
 
-// A large slab with its top at y = 0, under whatever sky and light the test adds.
+// A large slab with its top at y = 0. Tests add lights.
 Scene slabScene(glm::vec3 skyRadiance) {
     Scene scene;
     scene.materials.push_back({.name = "slab", .baseColor = {0.5f, 0.5f, 0.5f, 1}});
@@ -25,8 +25,7 @@ Scene slabScene(glm::vec3 skyRadiance) {
     return scene;
 }
 
-// Open plane under a constant sky L: E(up) = pi L; under the plane only what the ground below would send, here nothing
-// but the sky's lower half, so the slab's underside faces E = pi L and the sealed side of the plane 0.
+// Open plane under a constant sky L: E(up) = pi L.
 TEST(FieldLight, openPlaneSeesTheWholeSky) {
     test::FieldScene s(slabScene({0.5f, 1, 2}), {{-2.1f, -0.7f, -2.1f}, glm::vec3(1.4f), {4, 3, 4}});
     s.run(100);
@@ -56,7 +55,7 @@ TEST(FieldLight, integratingSphere) {
     }
 }
 
-// A point under the slab, outside any light: black below a lit plane.
+// A point under the slab gets none of the light on its top.
 TEST(FieldLight, underThePlaneIsBlackWhereOnlyTheTopIsLit) {
     Scene scene = slabScene(glm::vec3(0));
     scene.lights.push_back({.type = LightType::directional, .intensity = glm::vec3(10)});

@@ -14,11 +14,11 @@ struct FieldScene {
                FieldSetup desc = {});
     FieldScene(Scene ownScene, const VolumeDesc& grid, FieldSetup desc = {});
 
-    /// Plain updates, as an engine does them.
+    /// Plain updates, as in an engine.
     void run(int frames);
 
-    /// Points on surfaces, found by random rays from probes that see a front face, with the view back along the ray.
-    /// Probes with a larger share of backfaces than `mostBacks` are not asked.
+    /// Points on front faces hit by random rays from probes, viewed back along the ray. Probes with a larger share of
+    /// backfaces than `mostBacks` are skipped.
     std::vector<FieldQuery> surfaceQueries(int count, float mostBacks = 1.0f) const;
 
     Context context;

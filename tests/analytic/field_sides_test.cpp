@@ -1,4 +1,4 @@
-// The truth of a closed scene does not depend on whether its materials have one side or two, and neither may the field.
+// The light in a closed scene does not depend on whether its materials are double-sided, and neither may the field.
 #include <gtest/gtest.h>
 
 #include "analytic/field_scene.h"
@@ -18,19 +18,19 @@ Scene withSides(std::string_view name, bool doubleSided) {
 }
 
 struct SidesDifference {
-    double rms = 0;  ///< root of the mean square difference at surface points, over the mean
+    double rms = 0;  ///< RMS difference at surface points, over the mean
     int solid = 0;   ///< probes in walls
 };
 
-// The same probes and rays in both.
+// With the same probes and rays in both scenes.
 SidesDifference measureSides(std::string_view name, const VolumeDesc& grid, int updates) {
     FieldSetup desc;
     desc.raysPerProbe = 64;
     test::FieldScene one(withSides(name, false), grid, desc), two(withSides(name, true), grid, desc);
     one.run(updates);
     two.run(updates);
-    // Points in the open: inside leaves that stand in each other, where no light comes, the shortened distances of
-    // single-sided backs (section 4.1) hide the dark probes that are right.
+    // Points in the open only. No light reaches the inside of intersecting leaves, but there the shortened distances of
+    // single-sided backs (section 4.1) hide the dark probes, which would be right.
     const auto queries = one.surfaceQueries(3000, 0.05f);
     const auto difference = compareLight(*lightAt(two.field, queries), *lightAt(one.field, queries));
     SidesDifference d{difference->rms, 0};
@@ -47,7 +47,7 @@ TEST(FieldSides, roomsAreTheSameWithDoubleSidedWalls) {
     }
 }
 
-// Thick walls, ground, furniture and closed leaves that stand in each other.
+// Thick walls, ground, furniture, and closed leaves that intersect each other.
 TEST(FieldSides, theHouseIsTheSameWithDoubleSidedWalls) {
     const Scene scene = *makeBuiltinScene("house");
     const VolumeDesc grid = *placeVolume(poseAt(scene).bounds, {.targetProbes = 1500});

@@ -1,4 +1,4 @@
-// Closed boxes and spheres whose light is known: docs/accuracy.md lists the same truths for the field.
+// Closed boxes and spheres whose light is known; docs/accuracy.md lists the same closed forms for the field.
 #include <gtest/gtest.h>
 
 #include "probegi/builtin_scenes.h"
@@ -54,7 +54,7 @@ TEST(FurnacePicture, everyPixelShowsTheSameRadiance) {
     }
 }
 
-/// Albedo exactly 1 without a light: every path still ends, with nothing.
+/// Albedo exactly 1 and no light: every path still ends, without any radiance.
 TEST(ClosedRoom, ofAlbedoOneIsBlackAndEnds) {
     Scene scene;
     addRoom(scene, {-1, -1, -1}, {1, 1, 1}, addMaterial(scene, glm::vec3(1.0f)));
@@ -92,7 +92,7 @@ TEST_P(IntegratingSphere, bouncedIrradiance) {
 
 INSTANTIATE_TEST_SUITE_P(albedos, IntegratingSphere, testing::Values(0.0f, 0.5f, 0.9f));
 
-/// The scenes that users see, through Embree's triangles.
+/// The built-in scenes, as Embree's triangles.
 TEST(BuiltinScenes, furnaceAndSphereAreWhatTheyClaim) {
     const BuiltinParams params{.albedo = 0.7f, .emission = 3.0f, .power = 80.0f, .radius = 1.5f};
     const ReferenceWorld furnace(*makeBuiltinScene("furnace", params)), sphere(*makeBuiltinScene("sphere", params));
@@ -105,7 +105,7 @@ TEST(BuiltinScenes, furnaceAndSphereAreWhatTheyClaim) {
     const auto bounced = sphere.pathTracer().irradiance({&inSphere, 1}, 4000);
     ASSERT_TRUE(bounced);
     const float truth = 80.0f * 0.7f / (4 * kPi * 1.5f * 1.5f * 0.3f);
-    // The facets of the sphere are worth a thousandth.
+    // Facets change the sphere's light by a thousandth.
     EXPECT_NEAR(bounced->front().mean.x, truth, 3 * bounced->front().standardError.x + 1e-3f * truth);
 }
 

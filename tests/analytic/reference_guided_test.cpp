@@ -1,5 +1,5 @@
-// The closed forms of reference_furnace_test and reference_sky_test once more, with a guide that is made by hand and
-// wrong: a learned one leaves such scenes alone, and would prove nothing. Each test makes sure that it is followed.
+// The closed forms of reference_furnace_test and reference_sky_test again, with a guide that is made by hand and wrong:
+// a learned one would not guide in such scenes and so prove nothing. Each test checks that the guide is used.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,8 +15,8 @@ using namespace test;
 
 constexpr float kPi = 3.14159265f;
 
-/// Eight boxes on a ring around the middle, above and below it in turns, in every region: nothing in these scenes
-/// shines from there more than from elsewhere.
+/// Eight boxes on a ring around the middle, alternately above and below it, in every region. In these scenes no more
+/// light comes from there than from elsewhere.
 PathGuide wrongGuide(glm::vec3 middle, float radius) {
     PathGuide guide(
         {.origin = middle - glm::vec3(2 * radius), .spacing = glm::vec3(2 * radius), .counts = glm::ivec3(3)});
@@ -52,8 +52,8 @@ void expectGuided(const ReferenceWorld& world, std::span<const FieldQuery> point
     }
 }
 
-/// The same, and what it expects of its regions is as wrong: nothing, far too little or far too much, so that paths end
-/// where the light is and go on where there is none.
+/// The same with wrong expectations of light in its regions: none, far too little or far too much, so that paths end
+/// where there is light and continue where there is none.
 PathGuide wrongExpectations(glm::vec3 middle, float radius) {
     PathGuide guide = wrongGuide(middle, radius);
     constexpr float kLevels[] = {1.0f, 0.01f, 50.0f, 0.2f, 0.0f};
@@ -61,7 +61,7 @@ PathGuide wrongExpectations(glm::vec3 middle, float radius) {
     return guide;
 }
 
-/// Expectations that are wrong a thousandfold cost noise, so there are more samples; the mean stays.
+/// Expectations that are wrong by a factor of a thousand increase noise, hence more samples, but not the mean.
 void expectUnbiased(const ReferenceWorld& world, std::span<const FieldQuery> points, const PathGuide& guide,
                     glm::vec3 truth) {
     const auto guided = estimate(world, points, &guide, true, 1, 64000);
@@ -111,7 +111,7 @@ TEST(GuidedClosedForm, openPlaneUnderAConstantSky) {
     expectUnbiased(world, points, wrongExpectations({0, 1, 0}, 2.0f), kPi * scene.sky.radiance);
 }
 
-/// Walls from rough coats to near mirrors: the guide takes from the cosine lobe only, and the mean stays.
+/// Walls from rough coats to near mirrors: the guide replaces the cosine lobe only, and the mean stays the same.
 TEST(GuidedClosedForm, glossyWallsKeepTheirMean) {
     for (const float roughness : {0.0f, 0.1f, 0.8f})
         for (const float metallic : {0.0f, 1.0f}) {

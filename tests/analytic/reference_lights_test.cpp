@@ -20,7 +20,7 @@ double cornerFactor(double a, double b, double h) {
     return (x / p * std::atan(y / p) + y / q * std::atan(x / q)) / (2 * double(kPi));
 }
 
-/// A lamp of 2 x 1 that looks down from 1.5 above the origin, its corner above it.
+/// A lamp of 2 x 1 that faces down, with a corner 1.5 above the origin.
 Scene cornerLamp(glm::vec3 emission, bool doubleSided = false) {
     Scene scene;
     addQuad(scene, {0, 1.5f, 0}, {2, 0, 0}, {0, 0, 1}, addMaterial(scene, glm::vec3(0.0f), emission, doubleSided));
@@ -54,7 +54,7 @@ TEST(RectangularEmitter, shinesFromItsFrontOnlyUnlessDoubleSided) {
                glm::vec3(kPi * float(cornerFactor(2, 1, 1.5))));
 }
 
-/// A mirrored, scaled instance: the front stays the front, and the density follows the area in the world.
+/// A mirrored, scaled instance: the front remains the front, and the density follows the area in world space.
 TEST(RectangularEmitter, instanceThatMirrorsAndScales) {
     Scene scene;
     addQuad(scene, {0, 0, 0}, {0, 0, 1}, {1, 0, 0}, addMaterial(scene, glm::vec3(0.0f), glm::vec3(1.0f)));
@@ -82,7 +82,7 @@ TEST(TexturedEmitter, onlyItsBrightHalfShines) {
     }
 }
 
-/// Two lamps of different power: the density of either must not depend on which triangle was hit.
+/// Two lamps of different power: neither density may depend on which triangle was hit.
 TEST(TwoEmitters, addUp) {
     Scene scene = cornerLamp(glm::vec3(8.0f));
     addQuad(scene, {-2, 1.5f, 0}, {2, 0, 0}, {0, 0, 1}, addMaterial(scene, glm::vec3(0.0f), glm::vec3(0.5f)));
@@ -134,7 +134,8 @@ TEST(PointLight, rangeWindow) {
 
 TEST(DirectionalLight, cosineOfItsSlant) {
     Node node;
-    node.rotation = glm::quat(std::cos(-0.5f * kPi / 3), std::sin(-0.5f * kPi / 3), 0, 0);  // -Z turned down by 60 deg
+    node.rotation =
+        glm::quat(std::cos(-0.5f * kPi / 3), std::sin(-0.5f * kPi / 3), 0, 0);  // -Z turned down by 60 degrees
     Light light;
     light.type = LightType::directional;
     light.intensity = glm::vec3(7.0f);
@@ -144,7 +145,7 @@ TEST(DirectionalLight, cosineOfItsSlant) {
 TEST(SpotLight, fullInsideTheInnerConeAndNoneOutsideTheOuter) {
     Node node;
     node.translation = {0, 2, 0};
-    node.rotation = glm::quat(std::cos(-0.25f * kPi), std::sin(-0.25f * kPi), 0, 0);  // looks down
+    node.rotation = glm::quat(std::cos(-0.25f * kPi), std::sin(-0.25f * kPi), 0, 0);  // faces down
     Light light;
     light.type = LightType::spot;
     light.innerConeAngle = 0.3f;
@@ -157,7 +158,7 @@ TEST(SpotLight, fullInsideTheInnerConeAndNoneOutsideTheOuter) {
                 ramp * ramp * cosine * cosine * cosine * 0.25f * 0.8f / kPi, 1e-4f);
 }
 
-/// Twenty lights: one is chosen at a time, the sum is right all the same.
+/// Twenty lights: one is chosen at a time, and the sum must still be right.
 TEST(ManyLights, choosingOneIsUnbiased) {
     Scene scene;
     addQuad(scene, {-10, 0, -10}, {0, 0, 20}, {20, 0, 0}, addMaterial(scene, glm::vec3(0.5f)));

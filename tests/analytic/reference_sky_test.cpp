@@ -33,7 +33,7 @@ TEST(OpenPlane, constantSky) {
     EXPECT_EQ((*e)[1].mean, glm::vec3(0.0f));
 }
 
-/// A wall sees half the sky and half the plane, which sends a pi L / pi: E = pi L (1 + a) / 2, but for the plane's end.
+/// A wall sees half the sky and half the plane, whose radiance is a L: E = pi L (1 + a) / 2, up to the plane's end.
 TEST(OpenPlane, aPointThatFacesSideways) {
     Scene scene = plane(0.6f);
     scene.sky.radiance = glm::vec3(1.0f);

@@ -1,4 +1,4 @@
-// Wide nodes from binary ones: which child stands in which slot, and what a leaf is.
+// Wide nodes from binary ones: slots of children and sizes of leaves.
 #include "bvh/collapse.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ BuildItem unitBox(glm::vec3 corner, std::uint32_t id) {
 }
 
 // Eight boxes in the corners of a cube: bit a of a slot's number says that its child lies towards +a (section 3.2),
-// whatever the order in which they came.
+// whatever the order of the boxes.
 TEST(Collapse, childrenStandWhereTheirDirectionSays) {
     std::vector<BuildItem> items;
     for (std::uint32_t s = 0; s < 8; ++s) items.push_back(unitBox(10.0f * glm::vec3(s & 1, s >> 1 & 1, s >> 2), s));
@@ -34,7 +34,7 @@ TEST(Collapse, childrenStandWhereTheirDirectionSays) {
     }
 }
 
-// Two of three boxes lie together: one leaf for all where items are cheap, a leaf each where they are dear.
+// Two of three boxes are close together: one leaf for all if items are cheap to test, a leaf each if they are not.
 TEST(Collapse, leavesAreAsLargeAsTheyAreCheap) {
     std::vector<BuildItem> items;
     for (std::uint32_t i = 0; i < 12; ++i) items.push_back(unitBox(glm::vec3(3.0f * float(i), 0, 0), i));

@@ -16,8 +16,8 @@ constexpr std::size_t kBatch = 4096;
 struct Compared {
     std::size_t rays = 0, hits = 0;
     std::size_t different = 0;    ///< hit against miss, or another distance
-    std::size_t unexplained = 0;  ///< of these: not at an edge or tie
-    std::size_t occlusion = 0;    ///< the answers differ about what lies between
+    std::size_t unexplained = 0;  ///< of these, not at an edge or a tie
+    std::size_t occlusion = 0;    ///< of different occlusion
 };
 
 Ray randomRay(std::mt19937& random, const Bounds& bounds) {
@@ -29,15 +29,15 @@ Ray randomRay(std::mt19937& random, const Bounds& bounds) {
     return {bounds.lower + place * bounds.size(), 0.0f, glm::normalize(direction), 1e30f};
 }
 
-/// 1e-4 relative. A distance of millimetres between points that are known to eight units in the last place of the
-/// largest coordinate cannot be told better than that: two maps of the origin into an instance's space differ by as
-/// much (against doubles, Embree's is the one farther off).
+/// Equal to a relative 1e-4, or to eight units in the last place of the largest coordinate, which limit short
+/// distances: two mappings of the origin into an instance's space differ by as much (against doubles, Embree's is
+/// farther off).
 bool sameDistance(float a, float b, float magnitude) {
     return std::abs(a - b) <= std::max(1e-4f * std::min(a, b), 8.0f * 1.1920929e-7f * magnitude);
 }
 
-/// Rounding may decide otherwise there: at the rim of a triangle, or of the solid part of a mask, the same ray turned
-/// by a few units in the last place agrees with the other answer.
+/// Whether rounding explains a difference: at the edge of a triangle, or of the solid part of a mask, the same ray
+/// turned by a few units in the last place gets the other result.
 bool atAnEdge(const Tracer& embree, const TracedWorld& world, const Ray& ray, const Hit& ours, const Hit& theirs) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> turn(-1e-5f, 1e-5f);

@@ -38,8 +38,8 @@ struct SceneGroup {
     }
 };
 
-/// A scene in the shape in which the Embree tracer has it: meshes that are placed once in world space, the others as
-/// instances, with alpha masks.
+/// A scene arranged as in the Embree tracer: meshes placed once are in world space, others are instances; with alpha
+/// masks.
 class SceneBvh {
 public:
     SceneBvh(const Context& context, const Scene& scene, const ScenePose& pose);
@@ -54,7 +54,7 @@ private:
 
     const Scene& m_scene;
     SceneGroup m_worldGroup;
-    std::vector<std::unique_ptr<SceneGroup>> m_groups;  ///< by mesh; null for one that is not instanced
+    std::vector<std::unique_ptr<SceneGroup>> m_groups;  ///< by mesh; null if it is not instanced
     std::vector<const SceneGroup*> m_groupOf;           ///< by instance
     TracedWorld m_world;
 };

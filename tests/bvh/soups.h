@@ -50,8 +50,8 @@ inline TracedWorld worldOf(const TriangleBvh& bvh) {
     return world;
 }
 
-/// Distance to the nearest triangle by its definition, in double precision (Moeller and Trumbore 1997, equation 6);
-/// 1e30 where there is none. `margin`: the least barycentric weight of all triangles that were met or nearly met.
+/// Distance to the nearest triangle by definition, in double precision (Moeller and Trumbore 1997, equation 6); 1e30 if
+/// there is none. `margin`: the least barycentric weight of all triangles that were hit or nearly hit.
 inline double nearestDistance(const SceneTriangles& soup, const Ray& ray, double& margin) {
     double nearest = 1e30;
     const glm::dvec3 d(ray.direction);

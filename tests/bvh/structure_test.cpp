@@ -1,4 +1,4 @@
-// What must hold for every tree: each item in one leaf, and quantised boxes around all that is below them.
+// Invariants of every tree: each item is in one leaf, and quantised boxes enclose everything below them.
 #include <gmock/gmock.h>
 
 #include <bit>
@@ -19,7 +19,7 @@ std::uint32_t byteAt(glm::uvec2 words, int slot) {
     return words[slot / 4] >> (8 * (slot % 4)) & 255u;
 }
 
-/// A child's box as it is written, read independently of the traversal.
+/// A child's box as stored, decoded independently of the traversal.
 struct Decoded {
     glm::dvec3 lower, upper;
 
@@ -38,10 +38,10 @@ struct Decoded {
     }
 };
 
-/// Walks a tree, checks every node, and counts how often each place of the leaves is met.
+/// Walks a tree, checks every node, and counts how often each leaf entry occurs.
 struct Walk {
     const std::vector<BvhNode>& nodes;
-    std::vector<std::vector<glm::vec3>> itemCorners = {};  ///< by place in the leaves
+    std::vector<std::vector<glm::vec3>> itemCorners = {};  ///< by leaf entry
     std::vector<int> visits = {};
     std::size_t nodesSeen = 0;
     int levels = 0;
@@ -153,7 +153,7 @@ TEST(BvhStructure, IdenticalTrianglesShareNoLeafBeyondItsSize) {
 }
 
 TEST(BvhStructure, DeepTreesStayWithinTheStack) {
-    // Each triangle half as large as the one before and inside its box: what the heuristic splits off one at a time.
+    // Each triangle is half as large as the one before and inside its box: the heuristic splits them off one by one.
     SceneTriangles soup;
     for (int i = 0; i < 20000; ++i) {
         const float s = std::exp2(-0.005f * float(i));

@@ -8,7 +8,7 @@
 
 namespace probegi::test {
 
-/// What kernels/trace/bvh_traverse.h reads, and how often it did.
+/// The data that kernels/trace/bvh_traverse.h reads, and how often it did.
 struct TracedWorld {
     BvhArrays arrays;
     std::vector<kernels::BvhInstance> instances;
@@ -19,7 +19,7 @@ struct TracedWorld {
     mutable std::size_t triangleTests = 0;
 };
 
-/// The kernel's C++ reading. One thread at a time.
+/// The kernel compiled as C++. One thread at a time.
 Hit closestHit(const TracedWorld& world, const Ray& ray);
 bool occluded(const TracedWorld& world, const Ray& ray);
 

@@ -1,4 +1,4 @@
-// Rays through the trees: closed forms, brute force, instances, masks, edges, and rays that are none.
+// Rays through the trees: closed forms, brute force, instances, masks, edges and invalid rays.
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -24,7 +24,7 @@ SceneTriangles floorAt(float y) {
     return soup;
 }
 
-/// A sphere of triangles that share their corners exactly.
+/// A sphere of triangles with exactly shared corners.
 SceneTriangles sphere(int rings) {
     SceneTriangles soup;
     const int segments = 2 * rings;
@@ -45,7 +45,7 @@ SceneTriangles sphere(int rings) {
     return soup;
 }
 
-/// Agrees with the definition, where that does not turn on a rounding.
+/// Expects the result of brute force, unless that depends on rounding.
 void expectBruteForce(const TracedWorld& world, const SceneTriangles& soup, const Ray& ray) {
     double margin = 1.0;
     const double expected = nearestDistance(soup, ray, margin);
@@ -217,7 +217,7 @@ TEST(BvhTraversal, MaskedTrianglesAskAndOpaqueOnesDoNot) {
     EXPECT_FALSE(occluded(world, down(-3.5f, -3.0f, 0.0f, 1.5f)));
 }
 
-TEST(BvhTraversal, RaysThatAreNoneHitNothing) {
+TEST(BvhTraversal, InvalidRaysHitNothing) {
     std::mt19937 random(7);
     const TracedWorld world = worldOf(buildOpaque(randomSoup(random, 1000)));
     const glm::vec3 o(0, 0, 3), d(0, 0, -1);
@@ -231,7 +231,7 @@ TEST(BvhTraversal, RaysThatAreNoneHitNothing) {
     EXPECT_EQ(world.nodeVisits, 0u);
 }
 
-TEST(BvhTraversal, NothingThere) {
+TEST(BvhTraversal, EmptySceneHasNoHits) {
     const TracedWorld world = worldOf(buildOpaque({}));
     EXPECT_EQ(world.worldRoot, kernels::kBvhNone);
     EXPECT_FALSE(closestHit(world, down(0, 0)).valid());

@@ -9,7 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// Whether the figures are good is for people to judge: here they only have to be there.
+// Only checks that the figures are there: timings never decide a test.
 TEST(Bench, MeasuresASmallScene) {
     const TemporaryFolder folder;
     const std::string json = folder.file("bench.json");

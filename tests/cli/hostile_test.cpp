@@ -1,4 +1,4 @@
-// Scenes and pictures that are wrong, large or far away on purpose, as the program meets them.
+// The program on scenes and pictures that are deliberately wrong, large or far away.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A floor of 2 x 2 m with its centre at (x, 0, 0), and a camera of any name above it.
+/// A floor of 2 x 2 m centred at (x, 0, 0), and a camera with a given name above it.
 std::string floorAt(double x, const std::string& cameraName = "eye") {
     const nlohmann::json scene = {
         {"asset", {{"version", "2.0"}}},
@@ -52,7 +52,7 @@ protected:
     TemporaryFolder m_folder;
 };
 
-// Half a million metres away is where a lamp's and the sky's light was lost.
+// At half a million metres, light of lamps and sky was once lost.
 TEST_F(Hostile, FarAwayTheLightIsTheSame) {
     const auto draw = [&](const std::string& x) {
         return picture(write("floor.gltf", floorAt(std::stod(x))),
@@ -115,7 +115,7 @@ TEST_F(Hostile, TheLimitNamesItsOption) {
     EXPECT_EQ(runTool({"compare", a, a}).exitCode, 0);
 }
 
-TEST_F(Hostile, AMicroscopicSceneIsToldInItsOwnTerms) {
+TEST_F(Hostile, AMicroscopicSceneIsReportedAsSuch) {
     std::string scene = floorAt(0);
     const std::string size = R"("scale":[2,1,2],"translation":[-1,0,-1])";
     ASSERT_NE(scene.find(size), std::string::npos);

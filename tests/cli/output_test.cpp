@@ -1,4 +1,4 @@
-// Where the program writes, and what it must leave alone.
+// Where the program may write, and what it must not overwrite.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
@@ -49,7 +49,7 @@ TEST_F(Output, StatsGoToStandardOutput) {
     EXPECT_TRUE(nlohmann::json::parse(run.out).contains("pictureMs"));
 }
 
-// Links to devices, so that a mistake costs the links.
+// Uses links to devices, so that a bug can destroy only the links.
 TEST_F(Output, DevicesAndLinksStay) {
     const std::string null = link("null", "/dev/null"), stats = link("stats", "target.json");
     const std::string nullPicture = link("null.png", "/dev/null");
@@ -62,7 +62,7 @@ TEST_F(Output, DevicesAndLinksStay) {
     EXPECT_TRUE(nlohmann::json::parse(readText(m_folder.file("target.json"))).contains("pictureMs"));
 }
 
-TEST_F(Output, AFullDiskIsToldForEveryOutput) {
+TEST_F(Output, AFullDiskIsReportedForEveryOutput) {
     const std::string full = link("full", "/dev/full"), fullPicture = link("full.png", "/dev/full");
     const std::string a = m_folder.file("in.exr");
     ASSERT_TRUE(writeImage(a, HdrImage(8, 8)));
@@ -72,7 +72,7 @@ TEST_F(Output, AFullDiskIsToldForEveryOutput) {
     EXPECT_TRUE(fs::is_symlink(full) && fs::is_symlink(fullPicture));
 }
 
-TEST_F(Output, WhatIsPrintedOnAFullDiskIsToldToo) {
+TEST_F(Output, PrintingToAFullDiskIsReportedToo) {
     for (const std::vector<std::string>& arguments : {std::vector<std::string>{"scenes"},
                                                       {"--help"},
                                                       {"render", "--help"},
@@ -82,7 +82,7 @@ TEST_F(Output, WhatIsPrintedOnAFullDiskIsToldToo) {
                                                       {"info", "builtin:cornell", "--json"}}) {
         const ToolRun run = runTool(arguments, {{}, "/dev/full"});
         EXPECT_EQ(run.exitCode, 1) << testing::PrintToString(arguments);
-        EXPECT_THAT(run.err, testing::StartsWith("error: what is printed cannot be written (No space left on device)"));
+        EXPECT_THAT(run.err, testing::StartsWith("error: standard output cannot be written (No space left on device)"));
     }
 }
 
@@ -125,7 +125,7 @@ TEST_F(Output, InputsAreNotOverwritten) {
     EXPECT_EQ(m_folder.entries(), 3u);
 }
 
-TEST_F(Output, AReportOfASceneWhoseNameIsNoText) {
+TEST_F(Output, AReportOfASceneWithANameThatIsNotText) {
     const std::string scene = m_folder.file(
         "K\xfc"
         "che \x1b[31m.gltf");

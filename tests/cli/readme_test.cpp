@@ -7,8 +7,8 @@
 
 #include "cli/tool.h"
 
-// The README's block of commands, typed line by line as a newcomer would, in one folder. Options that make them quick
-// are added at the end of each line; nothing else is changed but how long the reference may take.
+// The README's block of commands, run line by line in one folder. To be fast, options are added at the end of each
+// line, and the reference's time is shortened; nothing else is changed.
 namespace probegi::test {
 namespace {
 

@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// A square floor without any light, one metre each way, with positions in a data URI.
+// A square floor of one metre without any light, with positions in a data URI.
 constexpr const char* kUnlitFloor = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
  "nodes": [{"mesh": 0}],
  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
@@ -19,7 +19,7 @@ constexpr const char* kUnlitFloor = R"({"asset": {"version": "2.0"}, "scene": 0,
  "bufferViews": [{"buffer": 0, "byteLength": 36}],
  "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
 
-// A tiny render; expects success without a word.
+// A tiny render; expects success without any output.
 HdrImage render(std::vector<std::string> arguments, const std::string& scene = "builtin:cornell") {
     const TemporaryFolder folder;
     const std::string out = folder.file("a.exr");
@@ -143,7 +143,7 @@ TEST(Render, PngFollowsExposure) {
     EXPECT_NE(png("0.5", false), png("0.5", true));
 }
 
-TEST(Render, AutomaticExposureIsToldAndFollowsTheLight) {
+TEST(Render, AutomaticExposureIsPrintedAndFollowsTheLight) {
     const TemporaryFolder folder;
     const auto png = [&](const std::string& emission, std::vector<std::string> more) {
         more.insert(more.begin(), {"render", "builtin:furnace", "-o", folder.file("a.png"), "--size", "32x18",
@@ -153,7 +153,7 @@ TEST(Render, AutomaticExposureIsToldAndFollowsTheLight) {
         EXPECT_EQ(run.err, "");
         return std::pair(run.out, mean(readImage(folder.file("a.png")).value()));
     };
-    // Every pixel of a furnace without bounces is the emission, which middle grey makes 0.18 of.
+    // Without bounces, every pixel of a furnace is its emission, which automatic exposure maps to 0.18.
     const auto [saidDim, dim] = png("0.01", {});
     const auto [saidBright, bright] = png("100", {});
     EXPECT_THAT(saidDim, HasSubstr("--exposure 18\n"));
@@ -163,13 +163,13 @@ TEST(Render, AutomaticExposureIsToldAndFollowsTheLight) {
     const auto [saidFixed, fixed] = png("0.5", {"--exposure", "1"});
     EXPECT_EQ(saidFixed, "");
     EXPECT_NEAR(fixed, 0.5, 5e-3);
-    // The scene suggests 0.5 (1 - albedo) / emission, and half of it is its albedo.
+    // The scene suggests an exposure of 0.5 (1 - albedo) / emission, and its albedo is a half.
     const auto [saidScene, scene] = png("3", {"--exposure", "scene"});
     EXPECT_EQ(saidScene, "");
     EXPECT_NEAR(scene, 0.25, 5e-3);
 }
 
-TEST(Render, APictureThatIsNearlyBlackIsTold) {
+TEST(Render, ANearlyBlackPictureIsReported) {
     const TemporaryFolder folder;
     const auto said = [&](std::vector<std::string> more) {
         more.insert(more.begin(), {"render", "builtin:cornell", "--size", "32x18", "--method", "none", "-o"});
@@ -184,8 +184,8 @@ TEST(Render, APictureThatIsNearlyBlackIsTold) {
     EXPECT_EQ(said({folder.file("a.exr")}), "") << "linear light has no exposure";
 }
 
-// Eight rays a probe do not find Cornell's lamp to a hundredth of a per cent in 128 updates, but to all of it in a few.
-TEST(Render, ACapThatIsHitIsTold) {
+// With eight rays per probe, Cornell does not converge to 0.01 % in 128 updates, but to 100 % in a few.
+TEST(Render, ReachingTheCapIsReported) {
     const TemporaryFolder folder;
     const auto run = [&](const char* tolerance) {
         const ToolRun tool =
@@ -207,7 +207,7 @@ TEST(Render, ACapThatIsHitIsTold) {
     EXPECT_LT(converged["frames"], 128);
 }
 
-TEST(Render, AGridThatLeavesSurfacesOutIsTold) {
+TEST(Render, AGridThatLeavesSurfacesOutIsReported) {
     const TemporaryFolder folder;
     const auto said = [&](const char* volume) {
         const ToolRun tool = runTool({"render", "builtin:furnace", "-o", folder.file("a.png"), "--size", "32x18",

@@ -6,25 +6,25 @@
 
 namespace probegi::test {
 
-/// What a run of the program left.
+/// The result of a run of the program.
 struct ToolRun {
     int exitCode = -1;
     std::string out, err;
 };
 
-/// Where the program runs.
+/// Where to run the program.
 struct ToolPlace {
     std::filesystem::path folder;  ///< working folder; empty: this program's own
-    std::string standardOutput;    ///< where what it prints goes; empty: into ToolRun::out
+    std::string standardOutput;    ///< file for its output; empty: ToolRun::out
 };
 
 /// Runs the program and waits for it.
 ToolRun runTool(const std::vector<std::string>& arguments, const ToolPlace& place = {});
 
-/// Expects a run to be refused: this exit code, nothing on stdout, one sentence on stderr with `mentions` in it.
+/// Expects a run to fail with this exit code, nothing on stdout, and one sentence on stderr that contains `mentions`.
 void expectRefused(const std::vector<std::string>& arguments, const std::string& mentions, int exitCode);
 
-/// A variable of the environment of the programs that are run while the object lives.
+/// Sets an environment variable for programs run while the object lives.
 class EnvironmentVariable {
 public:
     EnvironmentVariable(std::string name, const std::string& value);
@@ -36,7 +36,7 @@ private:
     std::string m_name;
 };
 
-/// An empty folder that goes away with its object.
+/// An empty folder, deleted with the object.
 class TemporaryFolder {
 public:
     TemporaryFolder();

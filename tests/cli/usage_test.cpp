@@ -72,7 +72,7 @@ TEST(Usage, HelpHasAnExample) {
     }
 }
 
-TEST(Usage, MainHelpSaysWhatToTypeFirst) {
+TEST(Usage, MainHelpShowsAFirstCommand) {
     for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"}, std::vector<std::string>{}}) {
         const ToolRun run = runTool(arguments);
         EXPECT_EQ(run.exitCode, 0);

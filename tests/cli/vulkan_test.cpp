@@ -6,8 +6,8 @@
 #include "cli/tool.h"
 #include "probegi/image.h"
 
-// The tool's Vulkan backend. The validation layer watches over every run and writes what it has to say to stdout, which
-// must stay empty.
+// The tool's Vulkan backend. Every run is under the validation layer, which writes its messages to stdout, so that must
+// stay empty.
 namespace probegi::test {
 namespace {
 
@@ -20,8 +20,8 @@ protected:
     std::vector<std::string> render(const std::string& output, std::vector<std::string> more) const {
         more.insert(more.begin(), {"render", "builtin:cornell", "-o", output, "--size", "32x18", "--antialias", "1",
                                    "--frames", "4", "--probes", "4x4x4", "--rays", "32",
-                                   // With seed 1 a ray of the fourth update meets something else by the BVH
-                                   // than by Embree and by ray query: 0.23 % of the indirect light.
+                                   // With seed 1 a ray of the fourth update hits something else in the BVH
+                                   // than in Embree and by ray query: 0.23 % of the indirect light.
                                    "--seed", "2"});
         return more;
     }
@@ -94,7 +94,7 @@ TEST_F(Vulkan, StatsAndDeviceByName) {
     EXPECT_GT(figures["pictureMs"], 0);
 }
 
-TEST_F(Vulkan, ShadersAreKeptAndDamageIsMended) {
+TEST_F(Vulkan, ShadersAreCachedAndADamagedCacheIsRepaired) {
     const std::string out = m_folder.file("a.exr"), cache = m_folder.file("cache");
     const HdrImage first = picture(renderOnVulkan(out, {}));
     std::vector<std::string> files;
@@ -107,7 +107,7 @@ TEST_F(Vulkan, ShadersAreKeptAndDamageIsMended) {
     EXPECT_THAT(mended.err, HasSubstr("damaged"));
     EXPECT_EQ(difference(first, readImage(out).value()), 0);
     for (const std::string& file : files) EXPECT_NE(readText(file), "not a cache");
-    picture(renderOnVulkan(out, {}));  // without a word
+    picture(renderOnVulkan(out, {}));  // without any output
 }
 
 TEST_F(Vulkan, ACacheThatCannotBeWrittenIsAWarning) {
@@ -122,14 +122,14 @@ TEST_F(Vulkan, ACacheThatCannotBeWrittenIsAWarning) {
     EXPECT_TRUE(readImage(out));
 }
 
-TEST_F(Vulkan, UnknownDevicesAreAnsweredWithTheKnown) {
+TEST_F(Vulkan, AnUnknownDeviceListsTheKnownOnes) {
     const std::string out = m_folder.file("a.exr"), name = devices()[0]["name"];
     expectRefused(renderOnVulkan(out, {"--device", "99"}), name, 1);
     expectRefused(renderOnVulkan(out, {"--device", "Voodoo"}), name, 1);
     EXPECT_EQ(m_folder.entries(), 0u);
 }
 
-TEST_F(Vulkan, WithoutADriverOneSentence) {
+TEST_F(Vulkan, WithoutADriverThereIsOneMessage) {
     const EnvironmentVariable none("VK_DRIVER_FILES", m_folder.file("none.json"));
     expectRefused({"devices"}, "driver", 1);
     expectRefused(renderOnVulkan(m_folder.file("a.exr"), {}), "driver", 1);
@@ -162,7 +162,7 @@ TEST_F(Vulkan, BenchTimesEachPass) {
     EXPECT_EQ(figures["probes"], 64);
     EXPECT_EQ(figures["tracer"], "BVH");
     EXPECT_THAT(run.out, HasSubstr(figures["device"].get<std::string>()));
-    // Whether the figures are good is for people to judge: here they only have to be there.
+    // Only checks that the figures are there: timings never decide a test.
     for (const char* row : {"weights", "trace", "shade", "emitters", "windows", "blend irradiance", "blend visibility",
                             "filter", "solid probes"}) {
         EXPECT_GE(figures["rows"][row]["ms"], 0) << row;
@@ -186,7 +186,7 @@ TEST_F(Vulkan, OptionsThatDoNotGoTogether) {
 
 #else
 
-TEST(Vulkan, LeftOutOfTheProgramItSaysSo) {
+TEST(Vulkan, ReportsThatTheProgramWasBuiltWithoutIt) {
     const TemporaryFolder folder;
     expectRefused({"devices"}, "built without", 1);
     expectRefused({"render", "builtin:cornell", "-o", folder.file("a.png"), "--backend", "vulkan"}, "built without", 1);

@@ -17,8 +17,7 @@ TEST(Context, ThreadsOutOfRangeAreRefused) {
     }
 }
 
-// In a process of its own, which may not start another thread: limits do not hold for root, so it becomes somebody
-// else.
+// In a separate process, which may not start threads. The limit does not apply to root, so it changes its user.
 TEST(Context, ThreadsThatTheSystemDoesNotStartAreASentence) {
     enum { kAsExpected = 7, kNotLimited, kSerialRefused, kNoSentence };
     const pid_t child = fork();

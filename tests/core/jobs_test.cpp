@@ -57,7 +57,7 @@ TEST(Jobs, ALoopWithinALoopStaysOnItsThread) {
     EXPECT_EQ(sum, 64);
     EXPECT_EQ(jobs.loops, 1);
     EXPECT_FALSE(jobs.nested);
-    EXPECT_EQ(visits(context, 8, 1), std::vector<int>(8, 1));  // afterwards the engine is asked again
+    EXPECT_EQ(visits(context, 8, 1), std::vector<int>(8, 1));  // afterwards the engine's jobs are used again
     EXPECT_EQ(jobs.loops, 2);
 }
 

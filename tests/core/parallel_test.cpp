@@ -9,7 +9,7 @@ namespace probegi {
 namespace {
 
 #ifdef PROBEGI_HAS_MXCSR
-// Below the smallest normal number, unless such numbers count as zero.
+// A product below the smallest normal number; 0 if denormals are flushed.
 float denormalProduct() {
     volatile float small = std::numeric_limits<float>::min();
     return small * 0.25f;
@@ -17,7 +17,7 @@ float denormalProduct() {
 
 class ParallelFor : public testing::TestWithParam<int> {};
 
-TEST_P(ParallelFor, TasksKnowNoDenormals) {
+TEST_P(ParallelFor, TasksFlushDenormals) {
     const Context context = Context::create({.threads = GetParam()}).value();
     std::vector<float> seen(64, -1.0f);
     parallelFor(context, seen.size(), 1, [&](std::size_t begin, std::size_t end) {

@@ -59,7 +59,7 @@ struct BlendInput {
     std::vector<RayDatum> data;
 };
 
-// Eq. 1 as printed, one texel at a time: the oracle for the matrix product.
+// Eq. 1 as in the paper, one texel at a time: the oracle for the matrix product.
 glm::dvec3 directMean(const BlendInput& s, std::size_t probe, int texel) {
     const glm::vec3 n = kernels::octTexelDirection(texel % 8, texel / 8, 8);
     glm::dvec3 sum(0.0);
@@ -114,7 +114,7 @@ TEST_P(BlendRules, matrixProductEqualsTheDirectSum) {
 }
 INSTANTIATE_TEST_SUITE_P(Blend, BlendRules, testing::Values(BackfaceRule::zeroSample, BackfaceRule::excluded));
 
-// Powers of small cosines end in denormal numbers, which some processors multiply a hundred times as slowly.
+// Powers of small cosines can be denormal numbers, which some processors multiply a hundred times more slowly.
 TEST(BlendWeights, AreNormalNumbersOrZero) {
     BlendInput s;
     s.desc.visibilityExponent = 100;

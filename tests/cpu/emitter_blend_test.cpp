@@ -1,4 +1,4 @@
-// What looks at emitters add to a probe's texels, by the definition of kernels::EmitterLight.
+// The light that emitter samples add to a probe's texels, by the definition of kernels::EmitterLight.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,8 +17,8 @@ namespace {
 
 using test::FieldSetup;
 
-// Rays bring nothing, looks bring all: each texel is the sum of its looks, times the clamped cosine.
-TEST(EmitterBlend, isTheSumOverLooks) {
+// With no light from the rays, each texel is the sum of the samples times the clamped cosine.
+TEST(EmitterBlend, isTheSumOverSamples) {
     FieldSetup desc;
     desc.volumes[0].counts = {3, 3, 5};
     desc.raysPerProbe = 16;

@@ -1,4 +1,4 @@
-// Field::converge and Field::update as their header has them: in a closed furnace, whose light is a closed form.
+// Field::converge and Field::update as documented, in a closed furnace, whose light is a closed form.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -12,7 +12,7 @@
 namespace probegi::test {
 namespace {
 
-/// A sphere seen from inside that shines with 1 and reflects a half: everywhere 1 / (1 - 1/2) = 2.
+/// The inside of a sphere that emits 1 and reflects a half: the radiance is 1 / (1 - 1/2) = 2 everywhere.
 struct Furnace : AnalyticTracer {
     Furnace() {
         Material m;
@@ -47,7 +47,7 @@ TEST(FieldConverge, arrivesAtTheFurnacesLight) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(e[c] / 3.14159265f, 2, 0.02);
 }
 
-TEST(FieldConverge, saysWhereTheCapWasHit) {
+TEST(FieldConverge, reportsReachingTheCap) {
     Field field = *Field::create(*Context::create({.threads = 1}), smallDesc(), smallDesc());
     const auto done = field.converge(Furnace(), {}, 0.01f, 1);
     ASSERT_TRUE(done);
@@ -72,7 +72,7 @@ TEST(FieldConverge, refusesWhatCannotEnd) {
 TEST(FieldConverge, endsWhenItIsCancelled) {
     const Context context = *Context::create({.threads = 1, .progress = [](const ProgressReport&) { return false; }});
     Field field = *Field::create(context, smallDesc(), smallDesc());
-    // Progress is told ten times a second at most.
+    // Progress is reported at most ten times a second.
     const auto pause = [](const UpdateTimes&) { std::this_thread::sleep_for(std::chrono::milliseconds(150)); };
     const auto done = field.converge(Furnace(), {}, 1e-6f, 50, pause);
     ASSERT_FALSE(done);
@@ -101,7 +101,7 @@ TEST(FieldUpdate, wantsARayDatumForEachRay) {
     EXPECT_FALSE(field.irradiance(queries, answers));
 }
 
-/// Fails where it is told to.
+/// Fails when told to.
 struct BrokenTracer : Furnace {
     bool hits = true;
     Result<void> closestHits(std::span<const Ray> rays, std::span<Hit> out) const override {
@@ -113,8 +113,8 @@ struct BrokenTracer : Furnace {
     }
 };
 
-// An update that fails is no frame: the next one has its rays.
-TEST(FieldUpdate, thatFailsIsNoFrame) {
+// A failed update does not count as a frame: the next one reuses its rays.
+TEST(FieldUpdate, doesNotCountAsAFrameIfItFails) {
     Field field = *Field::create(*Context::create({.threads = 1}), smallDesc(), smallDesc());
     const glm::vec3 ray = field.control().rayDirections()[0];
     BrokenTracer broken;
@@ -128,7 +128,7 @@ TEST(FieldUpdate, thatFailsIsNoFrame) {
     EXPECT_NE(field.control().rayDirections()[0], ray);
 }
 
-// One bounce an update: 1, 1.5, 1.75 ... of the way to 2.
+// Each update adds a bounce: 1, 1.5, 1.75 ... towards 2.
 TEST(FieldUpdate, addsABounceAFrame) {
     FieldSetup desc = smallDesc();
     desc.hysteresis = desc.visibilityHysteresis = 0;

@@ -11,7 +11,7 @@ namespace {
 
 using test::FieldSetup;
 
-// The library's own pipeline, from tracer to atlas, in a small built-in scene.
+// The complete pipeline, from tracer to atlas, in a small built-in scene.
 class FieldPipeline : public testing::Test {
 protected:
     Field makeField(const Context& own) const {

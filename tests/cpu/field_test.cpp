@@ -63,7 +63,7 @@ TEST(Field, memoryIsWithinItsBudget) {
     EXPECT_GE(double(field.memory().persistentBytes()) / probeCount(desc), 64 * 6 + 256 * 4);
 }
 
-// Refused before any memory is asked for: the query reaches 2^32 visibility texels.
+// Refused before any memory is allocated: the query can address 2^32 visibility texels.
 TEST(Field, moreVisibilityThanTheQueryReachesDoesNotFit) {
     FieldSetup desc;
     desc.volumes = {{{0, 0, 0}, {1, 1, 1}, {256, 256, 256}}};

@@ -1,4 +1,4 @@
-// Whole fields, bit for bit, on 1, 2, 3 and all threads: every texel of every probe, and what is asked of them.
+// Whole fields bit for bit on 1, 2, 3 and all threads: every texel of every probe, and queries.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kDoor = 2;
 
-/// Two rooms with a door between them, a lamp of two sides in one, the sky through a window of the other.
+/// Two rooms with a door between them; one has a double-sided lamp, the other a window to the sky.
 Scene roomsWithDoor() {
     Scene scene;
     scene.materials.resize(3);
@@ -43,7 +43,7 @@ Scene roomsWithDoor() {
     return scene;
 }
 
-/// All bits of a field that can be asked for.
+/// All bits of a field that can be read.
 std::vector<std::uint32_t> bitsOf(const Field& field) {
     std::vector<std::uint32_t> bits;
     const auto add = [&](float value) { bits.push_back(std::bit_cast<std::uint32_t>(value)); };
@@ -74,7 +74,7 @@ std::vector<std::uint32_t> bitsOf(const Field& field) {
     return bits;
 }
 
-/// Updates, the door that opens, more updates, and convergence: what the field holds after each part.
+/// The field's contents after updates, after more of them with the door opened, and after convergence.
 std::vector<std::vector<std::uint32_t>> partsOn(int threads, FieldRules rules) {
     const Context context = Context::create({.threads = threads}).value();
     Scene scene = roomsWithDoor();

@@ -1,4 +1,4 @@
-// Windows of a whole field, by ray data of one's own: who sees a change follows it at once, and so do its neighbours.
+// Windows of a whole field with given ray data: probes that see a change follow it at once, and so do their neighbours.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -17,7 +17,7 @@ constexpr int kAlong = 6, kRays = 256, kFixed = 16;
 
 struct Row {
     FieldSetup desc;
-    float light = 1, distance = 1;  // of the update rays; the light is spread evenly from half to one and a half of it
+    float light = 1, distance = 1;  // of the update rays; the light varies evenly from 0.5 to 1.5 times this
     std::vector<RayDatum> rays;
     std::vector<FixedRayDatum> fixed;
     std::optional<Field> field;
@@ -54,7 +54,7 @@ TEST(FieldWindows, stillLightIsAveraged) {
     }
 }
 
-// The light of all rays changes, but only the first probe's fixed rays tell of it.
+// The light of all rays changes, but only the first probe's fixed rays show it.
 TEST(FieldWindows, neighboursOfAProbeThatLagsFollow) {
     Row row;
     row.update(40);
@@ -63,12 +63,12 @@ TEST(FieldWindows, neighboursOfAProbeThatLagsFollow) {
     row.update(1);
     EXPECT_NEAR(row.followed(0), 1, 0.25);
     EXPECT_NEAR(row.followed(1), 1, 0.25) << "a neighbour";
-    // The others' windows grew by half a frame an update: they let in a twentieth.
+    // The others' windows have grown by half a frame per update, so that they admit a twentieth.
     for (int x = 2; x < kAlong; ++x) EXPECT_NEAR(row.followed(x), 0.05, 0.04) << x;
 }
 
-// At the other end of the grid too, across all three axes.
-TEST(FieldWindows, theLastProbeIsHeard) {
+// The same at the other end of the grid, across all three axes.
+TEST(FieldWindows, theLastProbeIsANeighbourToo) {
     Row row;
     row.update(40);
     row.light = 3;
@@ -93,8 +93,8 @@ TEST(FieldWindows, distancesHaveWindowsOfTheirOwn) {
     EXPECT_LT(row.followed(0), 0.12f) << "light did not lag as far as fixed rays tell";
 }
 
-// Without fixed rays the update's own must do: a change beyond their noise is followed.
-TEST(FieldWindows, ownRaysTellOfLargeChanges) {
+// Without fixed rays the update's own are used: a change beyond their noise is followed.
+TEST(FieldWindows, ownRaysShowLargeChanges) {
     Row row;
     row.update(40, false);
     for (int x = 0; x < kAlong; ++x) EXPECT_NEAR(row.followed(x), 0, 0.03) << x;
@@ -103,8 +103,8 @@ TEST(FieldWindows, ownRaysTellOfLargeChanges) {
     for (int x = 0; x < kAlong; ++x) EXPECT_NEAR(row.followed(x), 1, 0.25) << x;
 }
 
-// What stands in a wall tells its neighbours nothing.
-TEST(FieldWindows, probesInWallsAreNotHeard) {
+// Neighbours ignore probes in walls.
+TEST(FieldWindows, probesInWallsAreIgnored) {
     Row row;
     for (std::size_t i = 0; i < kRays; ++i) row.rays[i].distance = -1;
     row.update(40);
@@ -116,7 +116,7 @@ TEST(FieldWindows, probesInWallsAreNotHeard) {
     EXPECT_LT(row.followed(1), 0.12f);
 }
 
-// A constant field is that everywhere, in the grid and around it, for every normal.
+// A constant field is constant everywhere, in and around the grid, for every normal.
 TEST(FieldQueryTest, aConstantFieldIsConstant) {
     Row row;
     for (RayDatum& r : row.rays) r = {glm::vec3(1.0f), 1.0f};

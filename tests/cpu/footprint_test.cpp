@@ -1,4 +1,4 @@
-// Reading one probe's maps: at centres of texels, between them, across edges, along the grid's axes.
+// Reading one probe's maps: at texel centres, between them, across edges, along the grid's axes.
 #include "cpu/footprint.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using test::FieldSetup;
 
 constexpr int kProbes = 8;
 
-// Random texels, in maps of 6 (irradiance) and 10 (moments) a side.
+// Random texels in maps of 6 x 6 (irradiance) and 10 x 10 (moments).
 struct Maps {
     FieldSetup desc;
     std::vector<std::uint16_t> irradiance;
@@ -44,7 +44,7 @@ struct Maps {
     }
 };
 
-TEST(Footprint, atATexelsCentreIsTheTexel) {
+TEST(Footprint, isTheTexelAtItsCentre) {
     const Maps maps;
     for (int probe = 0; probe < kProbes; ++probe) {
         for (int t = 0; t < 36; ++t) {
@@ -76,7 +76,7 @@ TEST(Footprint, betweenTexelsIsBilinear) {
     }
 }
 
-// Across the edges texels continue as the octahedron does: answers are continuous all around.
+// Texels continue across the edges as on the octahedron, so results are continuous over the sphere.
 TEST(Footprint, isContinuousOverTheWholeSphere) {
     const Maps maps;
     std::uint32_t state = 9;

@@ -38,7 +38,7 @@ Outcome outcomeOn(const Context& context) {
     return outcome;
 }
 
-// The same bits as with threads of the library's own, and no loop within a loop is asked for.
+// The same bits as with the library's own threads, and no nested loops.
 TEST(EngineJobs, GiveTheSameBits) {
     Jobs jobs;
     const Outcome own = outcomeOn(Context::create({.threads = 2}).value());

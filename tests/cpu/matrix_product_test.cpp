@@ -10,7 +10,7 @@
 namespace probegi {
 namespace {
 
-// Rows, terms and columns around the sizes of the tiles, against sums in double precision.
+// Sizes around those of the tiles, against sums in double precision.
 void expectSums(std::size_t rows, std::size_t terms, std::size_t columns, const char* instructions) {
     std::uint32_t state = 3;
     Matrix left, result;

@@ -1,4 +1,4 @@
-// What moves in a scene does not pay for what stands still.
+// Moving something does not rebuild what stands still.
 #include <gmock/gmock.h>
 
 #include "cpu/embree_scene.h"

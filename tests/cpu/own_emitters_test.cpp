@@ -1,4 +1,4 @@
-// A tracer that is no triangle tracer tells of its lamps: looks at them bring what its rays bring on average.
+// A tracer without triangles that reports its emitters: on average, samples of them contribute the same as its rays.
 #include <gtest/gtest.h>
 
 #include "probegi/field.h"
@@ -43,7 +43,7 @@ float upwards(bool tells, int updates) {
     return sum;
 }
 
-TEST(OwnEmitters, looksBringWhatRaysBringOnAverage) {
+TEST(OwnEmitters, samplesContributeAsMuchAsRaysOnAverage) {
     const float byRays = upwards(false, 4000), byLooks = upwards(true, 4000), atOnce = upwards(true, 1);
     EXPECT_NEAR(byLooks / byRays, 1.0f, 0.01f);
     EXPECT_NEAR(atOnce / byLooks, 1.0f, 0.03f);

@@ -1,5 +1,5 @@
-// The query several points abreast, with every instruction set that this processor has, against the same kernels one
-// point and one probe at a time.
+// The query of several points at a time, with every instruction set of this processor, against the same kernels with
+// one point and one probe at a time.
 #include <gtest/gtest.h>
 
 #include <hwy/highway.h>
@@ -18,7 +18,7 @@
 namespace probegi {
 namespace {
 
-// A field of random light, random distances and some probes in walls.
+// A field with random light, random distances and some probes in walls.
 class RandomField {
 public:
     RandomField(LeakGuard guard, FieldRules rules, int visibilityTexels) {
@@ -39,8 +39,8 @@ public:
                     std::uint16_t(kernels::packHalfDithered(light * (0.8f + 0.2f * unit(m_random)), 0));
             m_backfaceShare.push_back(unit(m_random) < 0.2f ? 0.2f + 0.2f * unit(m_random) : 0.0f);
         }
-        // Each probe's distances differ by a third: Chebyshev's bound, cubed and crushed, magnifies what rounding does
-        // to a direction between texels, all the more the less these are alike.
+        // A probe's distances vary by a third only: Chebyshev's bound, cubed and crushed, amplifies the rounding of a
+        // direction between texels, the more so the more they differ.
         const std::size_t texels = std::size_t(visibilityTexels * visibilityTexels);
         for (std::size_t p = 0; p < probes; ++p) {
             const float own = 0.1f + 0.5f * unit(m_random);
@@ -70,7 +70,7 @@ public:
         return view;
     }
 
-    // In the grid and around it; a third of the normals along an axis.
+    // In and around the grid; a third of the normals are along an axis.
     std::vector<FieldQuery> points(std::size_t count) {
         std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
         const auto direction = [&] {
@@ -95,7 +95,7 @@ public:
     std::vector<float>& backfaceShare() { return m_backfaceShare; }
 
 private:
-    static constexpr int kSlots = 3 * 5 * 6 * 4;  // of up to three volumes
+    static constexpr int kSlots = 3 * 5 * 6 * 4;  // for up to three volumes
     std::mt19937 m_random{7};
     test::FieldSetup m_desc;
     std::vector<kernels::Volume> m_volumes;
@@ -137,15 +137,15 @@ TEST(QueryLanes, answerAsOnePointAtATime) {
             }
 }
 
-// All cages in walls: every answer comes from farther away, or is black.
+// All cages are in walls: every result comes from farther away or is black.
 TEST(QueryLanes, answersFromFartherAwayAsOneAtATime) {
     RandomField field(LeakGuard::moments, FieldRules::measured, 16);
     for (std::size_t i = 0; i < field.backfaceShare().size(); ++i) field.backfaceShare()[i] = i % 7 == 0 ? 0.27f : 1.0f;
     expectScalarAnswers(field, "probes in walls");
 }
 
-// A volume that is turned and scrolled and has not the pool's first slots. Turned by a rotation with which no point
-// lies so near a layer of probes that rounding decides its small weights.
+// A turned and scrolled volume that does not have the pool's first slots. With this rotation no point is so near a
+// layer of probes that its small weights depend on rounding.
 TEST(QueryLanes, answerInTurnedVolumesAsOneAtATime) {
     for (const LeakGuard guard : {LeakGuard::moments, LeakGuard::none}) {
         RandomField field(guard, FieldRules::measured, 16);
@@ -159,7 +159,7 @@ TEST(QueryLanes, answerInTurnedVolumesAsOneAtATime) {
     }
 }
 
-// Bit for bit what each volume answers alone: a point outside of all goes to the nearest.
+// The same bits as each volume's alone; points outside all volumes go to the nearest.
 TEST(QueryLanes, eachPointIsAnsweredByItsVolume) {
     RandomField field(LeakGuard::moments, FieldRules::measured, 16);
     field.makeVisibilityTaps();
@@ -189,7 +189,7 @@ TEST(QueryLanes, eachPointIsAnsweredByItsVolume) {
     for (const int count : answered) EXPECT_GT(count, 100);
 }
 
-// Blocks of points share nothing: each is answered as alone.
+// A point's result does not depend on the others in its block.
 TEST(QueryLanes, aPointsNeighboursDoNotMatter) {
     RandomField field(LeakGuard::moments, FieldRules::measured, 16);
     field.makeVisibilityTaps();

@@ -1,4 +1,4 @@
-// Ways into the open from probe to probe.
+// Paths into the open from probe to probe.
 #include "cpu/solid_probes.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 using test::FieldSetup;
 
-// 5 x 4 x 3 probes a metre apart that see `free` metres in every direction, all in doubt and trusted to have a way.
+// 5 x 4 x 3 probes a metre apart that see `free` metres in every direction, all doubtful and with trusted paths.
 struct Volume {
     FieldSetup desc;
     std::vector<std::uint32_t> visibility;
@@ -41,7 +41,7 @@ struct Volume {
     static std::size_t at(int x, int y, int z) { return std::size_t(x + 5 * (y + 4 * z)); }
 };
 
-// Which neighbours of a probe in the open find it: those at most `free` / 0.8 away.
+// The neighbours of a probe in the open find it if they are at most `free` / 0.8 away.
 TEST(SolidProbes, aWayMustBeFree) {
     for (const auto& [free, reach] : {std::pair{0.7f, 0}, {0.9f, 1}, {1.2f, 2}, {1.45f, 3}}) {
         Volume v(free);
@@ -73,7 +73,7 @@ TEST(SolidProbes, theShortestWayCounts) {
     EXPECT_EQ(v.sides[Volume::at(4, 3, 2)].trust, kernels::kMostTrust - 1);
 }
 
-// A wall that one of the two sees at half way is enough.
+// A wall half way, seen by one of the two, blocks the path.
 TEST(SolidProbes, bothMustSeeTheWayFree) {
     for (const int blind : {1, 2}) {
         Volume v(1.5f);
@@ -85,7 +85,7 @@ TEST(SolidProbes, bothMustSeeTheWayFree) {
     }
 }
 
-// Who is in no doubt looks for no way.
+// Only doubtful probes look for a path.
 TEST(SolidProbes, wallsAndRoomsDoNotLook) {
     Volume v(4);
     v.sides[Volume::at(0, 0, 0)] = {0, 0.9f, 0, 0, 0};

@@ -1,4 +1,4 @@
-// What a field's control says of the coming update.
+// The UpdateFrame that a field's control makes for the next update.
 #include "field/control_impl.h"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST(FieldControl, anAverageHasThePapersRays) {
     EXPECT_EQ(again.directions[3], shifted);
 }
 
-// Each ray stays in its own band about one axis, which keeps areas: after many updates every height was seen as often.
+// Each ray stays in its own band of equal area about one axis: after many updates, all heights are equally frequent.
 TEST(FieldControl, raysAreShiftedEvenlyOverTheirBands) {
     FieldSetup desc = smallDesc();
     desc.raysPerProbe = 144;
@@ -104,7 +104,7 @@ TEST(FieldControl, theMeasuredRulesHaveWindows) {
     EXPECT_NE(first.raySeed, first.ditherSeed);
 }
 
-// Who brings no fixed rays cannot tell of a change: old light fades at the described rate, also after an event.
+// Without fixed rays a change cannot be detected: old light fades at the described rate, also after an event.
 TEST(FieldControl, withoutFixedRaysTheHysteresisIsTheLongestWindow) {
     Books books(smallDesc());
     books.advance();
@@ -138,7 +138,7 @@ TEST(FieldControl, thePaperHasItsHysteresis) {
     EXPECT_EQ(frame.hysteresis.visibility, 0.8f);
 }
 
-TEST(FieldControl, averagesKeepWhatTheyAreTold) {
+TEST(FieldControl, averagesKeepTheGivenShare) {
     Books books(smallDesc());
     const UpdateFrame frame = books.comingAverage({0.3f, 0.6f});
     EXPECT_TRUE(frame.linear);
@@ -148,7 +148,7 @@ TEST(FieldControl, averagesKeepWhatTheyAreTold) {
     EXPECT_EQ(frame.hysteresis.visibility, 0.6f);
 }
 
-// The same rays again bring the same light: only the dither differs.
+// The same rays see the same light: only the dither differs.
 TEST(FieldControl, raysThatDoNotTurnAreTheSame) {
     Books books(smallDesc());
     const std::vector<glm::vec3> rays(books.directions.begin(), books.directions.end());

@@ -1,5 +1,5 @@
-// The books of Field::converge against rooms of which every update is a closed form: light that arrives is that of the
-// lamps and the albedo's share of the light that was there.
+// The bookkeeping of Field::converge against rooms where every update is a closed form: the new light is that of the
+// lamps plus the albedo times the previous light.
 #include "field/convergence.h"
 #include "support/field_setup.h"
 
@@ -15,8 +15,8 @@ using test::FieldSetup;
 
 // Blocks of 4 x 4 x 4 probes along x, each a room of its own.
 struct Room {
-    double light = 1;   ///< that lamps bring
-    double albedo = 0;  ///< the room ends at light / (1 - albedo)
+    double light = 1;   ///< from the lamps
+    double albedo = 0;  ///< the room converges to light / (1 - albedo)
     double noise = 0;   ///< standard deviation of an update's light, relative, the same at all its probes
     float backfaceShare = 0;
     double truth() const { return light / (1 - albedo); }
@@ -62,7 +62,7 @@ TEST(Convergence, everyRoomArrivesHoweverBright) {
     for (std::size_t i = 0; i < rooms.size(); ++i) EXPECT_NEAR(end.rooms[i] / rooms[i].truth(), 1, 0.01) << i;
 }
 
-// One albedo everywhere: two differences say where the light goes, and one update goes there.
+// With one albedo everywhere, two differences predict the limit, and one update steps there.
 TEST(Convergence, stepsAheadOfManyBounces) {
     for (const double albedo : {0.5, 0.8, 0.9, 0.95, 0.99}) {
         const std::vector<Room> rooms{{1, albedo}, {0.1, albedo}};
@@ -90,8 +90,8 @@ Averaged average(const std::vector<Room>& rooms, float tolerance) {
     return result;
 }
 
-// Stops when one and a half standard errors of the noisiest room are within the tolerance. Noise that a whole room
-// shares comes back with its bounces, which the scatter of the updates does not show: the truth is met less often.
+// Stops when one and a half standard errors of the noisiest room are within the tolerance. Noise shared by a whole room
+// returns with the bounces, which the scatter of the updates does not show, so the limit is met less often.
 TEST(Convergence, noiseIsAveragedUntilItIsSmall) {
     const Averaged direct = average({{1, 0, 0.03}, {1e-2, 0, 0.01}}, 0.02f);
     EXPECT_GT(direct.within, 0.75) << direct.updates;
@@ -104,13 +104,13 @@ TEST(Convergence, noiseIsAveragedUntilItIsSmall) {
     EXPECT_LT(more, 6 * direct.updates);
 }
 
-TEST(Convergence, aCapThatIsHitIsTold) {
+TEST(Convergence, reachingTheCapIsReported) {
     const Ending noisy = converge({{1, 0.5, 0.5}}, 0.01f, 32);
     EXPECT_FALSE(noisy.books.converged());
     EXPECT_EQ(noisy.books.updates(), 32);
     EXPECT_GT(noisy.books.remaining(), 0.01f);
     EXPECT_LT(noisy.books.remaining(), 2.0f);
-    // Too few to follow the bounces: at least as much is missing as was said.
+    // Too few updates for the bounces: the estimate of the missing light must not be too low.
     const Ending slow = converge({{1, 0.5}, {1, 0.9}, {1, 0.95}}, 0.01f, 24);
     const double missing = 1 - slow.rooms[2] * 0.05;
     EXPECT_TRUE(slow.books.converged() ? missing < 0.01 : missing < 1.5 * slow.books.remaining()) << missing;
@@ -119,7 +119,7 @@ TEST(Convergence, aCapThatIsHitIsTold) {
     EXPECT_TRUE(std::isinf(few.books.remaining()));
 }
 
-// A wall's probes, and a room that no light reaches but some noise, hold up nothing.
+// Probes in walls, and a room with noise but no light, do not prevent convergence.
 TEST(Convergence, wallsAndBlackRoomsDoNotBlock) {
     Room wall{1, 0.5, 0.9};
     wall.backfaceShare = 0.6f;
@@ -130,7 +130,7 @@ TEST(Convergence, wallsAndBlackRoomsDoNotBlock) {
     EXPECT_TRUE(converge({{0, 0}}, 0.01f, 128).books.converged()) << "all black";
 }
 
-// The average's weights 3 / (n + 2) forget the first ray set; distances average all sets that turned.
+// The average's weights 3 / (n + 2) forget the first ray set; distances are averaged over all turned sets.
 TEST(Convergence, keepsWhatItSays) {
     FieldSetup desc;
     desc.volumes[0].counts = {4, 4, 4};
@@ -148,8 +148,8 @@ TEST(Convergence, keepsWhatItSays) {
     EXPECT_NEAR(books.kept().visibility, 0.75, 1e-6);
 }
 
-// What remains: one and a half standard errors of the average, from the updates' scatter, and what the average still
-// drifts by, which falls by 2^3 from half as many updates where light has no bounces.
+// The estimate of the remaining error: one and a half standard errors of the average, from the updates' scatter, plus
+// its drift, which without bounces falls by 2^3 when the number of updates doubles.
 TEST(Convergence, whatRemainsIsScatterAndDrift) {
     FieldSetup desc;
     desc.volumes[0].counts = {4, 4, 4};
@@ -167,7 +167,7 @@ TEST(Convergence, whatRemainsIsScatterAndDrift) {
         tell(light);
         const double seen = (double(float(light)) - double(float(before))) / (0.5 * (light + before));
         sum.push_back((sum.empty() ? 0 : sum.back()) + seen);
-        // An update lies this far from the average before it, which has noise of its own.
+        // An update's distance from the average before it, which has noise of its own.
         if (n > 1) squares += std::pow(seen * (n + 2) / 3, 2) / (1 + 9.0 / 5 / (n - 1));
         EXPECT_FALSE(books.converged());
         if (n < 8) continue;

@@ -65,7 +65,7 @@ TEST(Placement, refusesWhatHasNoExtent) {
     EXPECT_FALSE(placeVolume({{0, 0, 0}, {1, 1, 1}}, {.marginCells = -1}));
 }
 
-// A cell and a quarter on each side, of cells that follow from the counts; too few probes: the scene's size twice.
+// A margin of one and a quarter cells on each side; with too few probes, twice the scene's size.
 TEST(Placement, marginsAreExact) {
     const Bounds bounds{{-5, 0, 0}, {5, 4, 20}};
     const auto grid = placeVolume(bounds, {.counts = {12, 6, 12}, .marginCells = 1});
@@ -84,7 +84,7 @@ TEST(Placement, marginsAreExact) {
     EXPECT_FLOAT_EQ(flat->spacing.y, 0.01f / 2.5f);
 }
 
-// The densest cubic grid within the target: cells a per cent smaller would be too many probes.
+// The densest cubic grid within the target: with cells 1 % smaller, there would be too many probes.
 TEST(Placement, usesTheTarget) {
     const glm::vec3 size(7, 3, 11);
     const auto probesAt = [&](float spacing, float margin) {
@@ -117,7 +117,7 @@ TEST(Placement, limitsAreInclusive) {
             desc.counts[axis] = count;
             EXPECT_EQ(bool(placeVolume(box, desc)), taken) << axis << ' ' << count;
         }
-    // Probes a micrometre apart are the closest.
+    // The least spacing is a micrometre.
     EXPECT_TRUE(placeVolume({{0, 0, 0}, glm::vec3(1.01e-6f * 8.5f)}, {.counts = glm::ivec3(12), .marginCells = 1}));
     EXPECT_FALSE(placeVolume({{0, 0, 0}, glm::vec3(0.99e-6f * 8.5f)}, {.counts = glm::ivec3(12), .marginCells = 1}));
 }
@@ -129,7 +129,7 @@ TEST(Grid, positionsFollowTheLinearIndex) {
     EXPECT_EQ(probeCount(grid), 60);
 }
 
-TEST(Placement, aSceneTooSmallForProbesIsToldInItsOwnTerms) {
+TEST(Placement, aSceneTooSmallForProbesIsReportedAsSuch) {
     const auto grid = placeVolume({{0, 0, 0}, {4e-6f, 4e-6f, 0}});
     ASSERT_FALSE(grid);
     EXPECT_NE(grid.error().message.find("the scene is only 4e-06 m large"), std::string::npos) << grid.error().message;
@@ -149,7 +149,7 @@ TEST(FieldDesc, gridsTooFarAwayAreRefused) {
     EXPECT_NE(at({3e38f, 0, 0}, 1.0f).find("from the origin"), std::string::npos);
 }
 
-// Every member of FieldDesc that is out of range is refused by name.
+// Errors name the member of FieldDesc that is out of range.
 TEST(FieldDesc, refusalsNameTheMember) {
     const auto message = [](auto&& edit) -> std::string {
         FieldSetup d;

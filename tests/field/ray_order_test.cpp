@@ -81,7 +81,7 @@ TEST(RayOrder, everyDirectionOnceAndNextToItsLike) {
         if (i > 0) cosines += glm::dot(ordered[i].direction, ordered[i - 1].direction);
     }
     for (const int times : seen) EXPECT_EQ(times, 1);
-    // 0.87 was measured; in the order of the set it is -0.16.
+    // Measured 0.87; in the set's own order it is -0.16.
     EXPECT_GT(cosines / (kRays - 1), 0.85f);
 }
 

@@ -1,4 +1,4 @@
-// The limits of every member of FieldDesc: the last value that is taken and the first that is not.
+// The limits of every member of FieldDesc: the last valid value and the first invalid one.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -82,8 +82,8 @@ TEST(FieldDescLimits, ofAllProbesTogether) {
     EXPECT_TRUE(validate(d));
 }
 
-// Where 32 units of the last place of a coordinate are a quarter of the spacing; either end of the grid may be
-// farthest.
+// The limit is where 32 units in the last place of a coordinate are a quarter of the spacing; either end of the grid
+// may be the farthest.
 TEST(FieldDescLimits, coordinatesMustBeFinerThanTheGrid) {
     const float unit = 32 * 1.1920929e-7f;
     for (int axis = 0; axis < 3; ++axis)
@@ -99,12 +99,12 @@ TEST(FieldDescLimits, coordinatesMustBeFinerThanTheGrid) {
         }
 }
 
-// The narrowest axis counts, whichever it is.
+// The axis with the least spacing counts, whichever it is.
 TEST(FieldDescLimits, coordinatesMustBeFinerThanTheNarrowestAxis) {
     for (int narrow = 0; narrow < 3; ++narrow) {
         FieldSetup d;
         d.volumes[0] = {glm::vec3(0.0f), glm::vec3(1.0f), glm::ivec3(8)};
-        d.volumes[0].origin[(narrow + 1) % 3] = 1000;  // where 32 units are 4 mm
+        d.volumes[0].origin[(narrow + 1) % 3] = 1000;  // 32 units in the last place are 4 mm here
         EXPECT_TRUE(validate(d));
         d.volumes[0].spacing[narrow] = 0.014f;
         EXPECT_FALSE(validate(d)) << narrow;

@@ -12,7 +12,7 @@
 namespace probegi {
 namespace {
 
-// A box of six quads, turned about the vertical; its fronts are inside where `inward`.
+// A box of six quads, turned about the vertical; with `inward`, the fronts are inside.
 void addBox(test::AnalyticTracer& world, glm::vec3 lower, glm::vec3 upper, bool inward, float degrees = 0) {
     const glm::quat turn = glm::angleAxis(glm::radians(degrees), glm::vec3(0, 1, 0));
     for (int axis = 0; axis < 3; ++axis)
@@ -26,7 +26,7 @@ void addBox(test::AnalyticTracer& world, glm::vec3 lower, glm::vec3 upper, bool 
         }
 }
 
-// A room inside walls of some thickness.
+// A room with walls of the given thickness.
 test::AnalyticTracer room(glm::vec3 lower, glm::vec3 upper, float thickness, float degrees = 0) {
     test::AnalyticTracer world;
     world.materials.resize(1);
@@ -51,7 +51,7 @@ void expectMargin(const VolumeDesc& grid, const Bounds& bounds, float cells) {
 
 const glm::vec3 kLower(1.3f, -0.4f, -7.1f), kUpper(7.5f, 2.5f, -2.2f);
 
-// How far from a fifth of a cell, on average over the room's six sides.
+// Mean difference from a fifth of a cell over the room's six sides.
 float cellsOff(const VolumeDesc& grid) {
     float sum = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -83,7 +83,7 @@ TEST(WallPlacement, countsAndMarginAreKept) {
         EXPECT_EQ(grid->counts, glm::ivec3(12, 9, 11));
         expectMargin(*grid, world.bounds(), margin);
     }
-    // Too few probes for a margin, and so for any choice.
+    // Too few probes for a margin, which leaves no choice.
     const auto tiny = placeVolume(world, {.counts = {2, 2, 2}});
     const auto byBounds = placeVolume(world.bounds(), {.counts = {2, 2, 2}});
     ASSERT_TRUE(tiny && byBounds);
@@ -91,7 +91,7 @@ TEST(WallPlacement, countsAndMarginAreKept) {
 }
 
 TEST(WallPlacement, whatIsNotSeenDoesNotCount) {
-    // The outer faces have more area than the inner ones, but nobody in the room or in the walls sees their fronts.
+    // The outer faces have more area than the inner ones, but their fronts are not visible from the room or the walls.
     const test::AnalyticTracer world = room(kLower, kUpper, 0.7f);
     const Walls walls = *findWalls(world);
     for (int axis = 0; axis < 3; ++axis) {
@@ -99,8 +99,8 @@ TEST(WallPlacement, whatIsNotSeenDoesNotCount) {
         for (const WallPoint& wall : walls.across[std::size_t(axis)])
             EXPECT_NEAR(wall.place, wall.up ? kLower[axis] : kUpper[axis], 1e-4f);
     }
-    // In a convex room, places are seen in proportion to area times the mean length of sight: all of them, by symmetry
-    // as often up as down an axis.
+    // In a convex room, points are seen in proportion to area times mean visible distance: all of them, and by symmetry
+    // equally often up and down an axis.
     for (const auto& across : walls.across) {
         const auto up = std::count_if(across.begin(), across.end(), [](const WallPoint& w) { return w.up; });
         EXPECT_NEAR(double(up) / double(across.size()), 0.5, 0.05);
@@ -122,7 +122,7 @@ TEST(WallPlacement, floorsCountWhereThereAreNoWalls) {
     }
 }
 
-TEST(WallPlacement, aRoomThatIsTurnedKeepsItsGridButForFloorAndCeiling) {
+TEST(WallPlacement, aTurnedRoomIsPlacedByFloorAndCeilingOnly) {
     const test::AnalyticTracer world = room(kLower, kUpper, 0.2f, 30);
     const auto grid = placeVolume(world), byBounds = placeVolume(world.bounds());
     ASSERT_TRUE(grid && byBounds);
@@ -135,7 +135,7 @@ TEST(WallPlacement, aLoneObjectAndAVoidKeepTheGridOfTheirBounds) {
     test::AnalyticTracer ball, inverted;
     ball.materials.resize(1), inverted.materials.resize(1);
     ball.addSphere({1, 2, 3}, 2, false, 0);
-    addBox(inverted, kLower, kUpper, false);  // a solid: inside of it there is nobody
+    addBox(inverted, kLower, kUpper, false);  // a solid, with no room inside
     for (const test::AnalyticTracer* world : {&ball, &inverted}) {
         const auto grid = placeVolume(*world), byBounds = placeVolume(world->bounds());
         ASSERT_TRUE(grid && byBounds);
@@ -145,7 +145,7 @@ TEST(WallPlacement, aLoneObjectAndAVoidKeepTheGridOfTheirBounds) {
     EXPECT_FALSE(placeVolume(test::AnalyticTracer()));  // no extent
 }
 
-// Rooms to both sides of a wall cannot all be served: what counts is the error over all walls.
+// No placement suits the rooms on both sides of a wall: the error over all walls counts.
 TEST(WallPlacement, severalRoomsShareTheBest) {
     const auto error = [](AxisPlacement p, const std::vector<WallPoint>& walls) {
         double sum = 0;

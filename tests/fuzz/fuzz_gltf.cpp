@@ -1,4 +1,4 @@
-// Any bytes as a glTF file, and as the settings beside one: a scene or a sentence, never a crash.
+// Any bytes as a glTF file, and as the settings beside one: a scene or an error message, never a crash.
 #include <cstddef>
 #include <cstdint>
 #include <sstream>

@@ -1,4 +1,4 @@
-// Any bytes as a picture of each format: pixels or a sentence, never a crash.
+// Any bytes as a picture of each format: pixels or an error message, never a crash.
 #include <cstddef>
 #include <cstdint>
 

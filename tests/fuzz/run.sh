@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Runs every fuzzer on seeds made for the occasion. Usage: run.sh BUILD_FOLDER [SECONDS]
-# Without SECONDS: a fixed number of inputs from one seed and nothing that earlier runs have found, so that what passes
-# once passes again, but for what libFuzzer itself leaves to chance (the glTF run varies by a per cent): for CI. With SECONDS: so long each, other inputs each time, on from what earlier runs have found: by
-# hand, for minutes or a night, after a reader has changed.
+# Runs every fuzzer on generated seeds. Usage: run.sh BUILD_FOLDER [SECONDS]
+# Without SECONDS, for CI: a fixed number of inputs from one seed, ignoring what earlier runs have found, so that runs
+# are reproducible, except for libFuzzer's own randomness (the glTF run varies by 1 %).
+# With SECONDS, by hand after changing a reader: each fuzzer runs that long on new inputs, continuing from what earlier
+# runs have found.
 # Exit code 1, and the offending input in BUILD_FOLDER/fuzz, if one crashes, hangs or takes over 2 GB. To run one again:
 # BUILD_FOLDER/tests/fuzz/fuzz_gltf INPUT.
 set -euo pipefail
@@ -17,7 +18,7 @@ if [[ -n $seconds ]]; then
 else
     corpus=$build/fuzz/fixed
     rm -rf "$corpus"
-    # A generous timeout: a busy machine is no fault of a reader.
+    # A generous timeout, since the machine may be busy.
     length=(-seed=1 -timeout=60)
     words="a fixed number of inputs from seed 1"
 fi

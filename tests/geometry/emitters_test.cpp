@@ -1,4 +1,4 @@
-// Which triangles send light, how likely each is to be looked at, and where a pose puts them.
+// Which triangles emit light, how likely each is to be sampled, and where a pose puts them.
 #include "geometry/emitters.h"
 
 #include "field/probe_emitters.h"
@@ -98,13 +98,13 @@ TEST(EmitterGeometry, movesWhatItsNodeMoves) {
     const EmitterSet set = geometry.placed();
     EXPECT_EQ(set.triangles[0].corner.y, 0.0f);
     EXPECT_EQ(set.triangles[2].corner.y, 7.0f);
-    // Shrunk to nothing, its place in the list stays.
+    // Scaled to nothing, it keeps its place in the list.
     geometry.place(4, glm::scale(glm::mat4(1.0f), glm::vec3(0)));
     EXPECT_EQ(geometry.placed().triangles.size(), 4u);
     EXPECT_EQ(geometry.placed().triangles[1].upTo, 0xffffffffu);
 }
 
-// Half of the texels white, half sRGB 188 (linear 0.503): the mean is 0.75. A black texture sends nothing.
+// Half of the texels are white, half sRGB 188 (linear 0.503): the mean is 0.75. A black texture emits nothing.
 TEST(EmitterGeometry, weighsTexturesByTheirMean) {
     TestScene s;
     Material half = glowing({2, 2, 2}), black = glowing({2, 2, 2});
@@ -119,7 +119,7 @@ TEST(EmitterGeometry, weighsTexturesByTheirMean) {
     EXPECT_EQ(set.luminance[std::size_t(unlit)], 0.0f);
 }
 
-TEST(EmitterSearch, isEmptyByThePaperWithoutLooksAndWithoutEmitters) {
+TEST(EmitterSearch, isEmptyByThePaperWithoutSamplesAndWithoutEmitters) {
     TestScene s;
     s.add(quad(s.addMaterial(glowing({1, 1, 1}))));
     const auto tracer = trace(tracerMakers()[0], s);

@@ -1,4 +1,4 @@
-// Mip levels against means worked out by hand, and the level that a footprint asks for.
+// Mip levels against means computed by hand, and the level for a footprint.
 #include "geometry/mip_maps.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ TEST(MipMaps, OddSizesAndOneTexel) {
     for (const std::uint8_t texel : mips) EXPECT_EQ(texel, 77);
 }
 
-// An odd number of texels, halved: each covers a little more than two, all count alike, and the mean stays.
+// An odd number of texels, halved: each new one covers a little more than two, with equal weights, so the mean stays.
 TEST(MipMaps, OddSizesCoverEachTexelAlike) {
     for (const int lit : {0, 1, 2, 3, 4}) {
         TextureImage image{5, 1, std::vector<std::uint8_t>(20, 0), "one lit"};
@@ -66,7 +66,7 @@ TEST(MipMaps, OddSizesCoverEachTexelAlike) {
     }
 }
 
-// A mean of equal texels is that texel, for every code; and of two codes the one nearest to the mean of their light.
+// For every code, the mean of equal texels is that code; of two codes it is the one nearest to their mean light.
 TEST(MipMaps, EveryCodeStays) {
     for (int code = 0; code < 256; ++code)
         for (const TexelKind kind : {TexelKind::color, TexelKind::data})
@@ -135,7 +135,7 @@ TEST(FootprintLevel, OneTexelIsLevelZeroAndDoublingIsOneMore) {
     EXPECT_EQ(level(1e-3f, 1, 1), 0) << "magnified";
     EXPECT_EQ(level(0, 1, 1), 0);
     EXPECT_EQ(level(1, 1e6f, 1), 9) << "the coarsest";
-    // Four times the area for the same uvs: half the texels a metre.
+    // Four times the area for the same uvs: half the texels per metre.
     EXPECT_NEAR(kernels::footprintLevel(0.004f, texels, 4.0f, 10), 0.034216f, 1e-4f);
     EXPECT_EQ(kernels::footprintLevel(1.0f, 0.0f, 0.0f, 10), 0) << "a triangle without uvs";
 }

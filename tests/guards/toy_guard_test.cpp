@@ -1,4 +1,4 @@
-// A guard that is one kernel header and one row of the list, on every backend through the public API.
+// A guard made of one kernel header and one row of the list, on every backend through the public API.
 #include <glm/geometric.hpp>
 #include <random>
 
@@ -15,7 +15,7 @@ protected:
     void SetUp() override {
         if (!GetParam().possible()) GTEST_SKIP() << "this device has no ray query";
     }
-    // Probes of even slots are dim, the others a hundred times as bright.
+    // Probes with even slots are dim, the others a hundred times as bright.
     static std::vector<RayDatum> stripes(const FieldDesc& desc) {
         std::vector<RayDatum> rays;
         for (int probe = 0; probe < probeCount(desc); ++probe)

@@ -1,4 +1,4 @@
-// What an engine writes, compiled with every compiler, standard and mode.
+// Code as in an engine, compiled with every compiler, standard and mode.
 #include "probegi/probegi.h"
 #ifdef PROBEGI_HAS_VULKAN
 #include "probegi/vulkan.h"
@@ -9,7 +9,7 @@ using namespace probegi;
 Result<float> askTwice(const Context& context, const FieldDesc& desc, std::span<const RayDatum> rays) {
     auto made = Field::create(context, desc);
     if (!made) return made.error();
-    made = Field::create(context, desc);  // a Result of a type that only moves is assigned
+    made = Field::create(context, desc);  // a Result of a move-only type can be assigned
     if (auto done = made->update(rays); !done) return done.error();
     made->update(rays).value();
     const FieldQuery query{.position = {1, 2, 3}};

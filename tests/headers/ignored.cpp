@@ -1,4 +1,4 @@
-// Compiles with one warning.
+// Must compile with one warning: the Result is ignored.
 #include "probegi/field.h"
 
 using namespace probegi;

@@ -1,5 +1,5 @@
 # cmake -DPAGE=file.md -DSOURCE=file -DPART=name -P excerpt.cmake
-# The code that a page shows is code that is compiled and run: the lines between [name] and [/name] in the source.
+# Checks that the code in a page is code that is compiled and run: the lines between [name] and [/name] in the source.
 file(READ ${SOURCE} text)
 if(NOT text MATCHES "\n( *)// \\[${PART}\\]\n(.*)\n *// \\[/${PART}\\]")
     message(FATAL_ERROR "${SOURCE} has no part between [${PART}] and [/${PART}]")

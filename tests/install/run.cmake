@@ -8,7 +8,7 @@ set(flags "-Wall -Wextra -Werror")
 if(SANITIZE)
     string(APPEND flags " -fsanitize=${SANITIZE}")
 endif()
-# The sources are copied, so that nothing of this tree is in reach.
+# Copies the sources, so that nothing of this tree can be used by accident.
 file(COPY ${EXAMPLES}/ DESTINATION ${WORK}/source)
 run(${CMAKE_COMMAND} -S ${WORK}/source -B ${WORK}/build -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DCMAKE_CXX_FLAGS=${flags})

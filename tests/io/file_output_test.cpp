@@ -1,4 +1,4 @@
-// What writeFile() does to what is already there: files, links, pipes, devices.
+// writeFile() onto existing files, links, pipes and devices.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ protected:
     std::size_t fileCount() const {
         return std::size_t(std::distance(fs::directory_iterator(m_folder), fs::directory_iterator()));
     }
-    /// Checked and written.
+    /// Expects the check and the writing to succeed.
     void expectWritten(const fs::path& to, const std::string& text) const {
         const auto checked = checkWritable(to);
         EXPECT_TRUE(checked) << checked.error().message;
@@ -106,7 +106,7 @@ TEST_F(FileOutput, PipesAreWrittenInto) {
 }
 
 TEST_F(FileOutput, DevicesAreWrittenInto) {
-    // By links, so that a mistake costs the links only.
+    // Through links, so that a bug can destroy only the links.
     fs::create_symlink("/dev/null", path("null"));
     fs::create_symlink("/dev/full", path("full"));
     expectWritten(path("null"), "gone");
@@ -142,12 +142,12 @@ TEST_F(FileOutput, FoldersAreRefused) {
 }
 
 TEST_F(FileOutput, PlacesThatTakeNoFilesAreFoundBeforeTheWork) {
-    // Where even root can make no file, though it may write to the folder.
+    // Places where even root cannot create files, though the folder is writable.
     for (const char* place : {"/proc/a.png", "/dev/fd/777"})
         expectRefused(checkWritable(place), place, "cannot be written");
 }
 
-// A process that ends in the middle of writing, as by Ctrl-C: here for a limit on sizes, which hits always.
+// A process that dies in the middle of writing, as by Ctrl-C: here by a limit on file sizes, which is reproducible.
 TEST_F(FileOutput, AnEndInTheMiddleLeavesNothing) {
     expectWritten(path("a"), "old");
     const pid_t child = fork();

@@ -6,7 +6,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// A node "a" and an animation of one channel; `edit` may change anything before it is read.
+/// A node "a" and an animation with one channel.
 GltfBuilder animated(const char* path, const char* interpolation, int times, int values) {
     GltfBuilder b;
     b.json["nodes"] = {{{"name", "a"}}, {{"name", "b"}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}};

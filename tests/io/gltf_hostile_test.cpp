@@ -1,4 +1,4 @@
-// Files that are wrong on purpose: each must end in a sentence, never in a crash, a hang or a huge allocation.
+// Deliberately broken files: each must give an error message, never a crash, a hang or a huge allocation.
 #include <fmt/format.h>
 
 #include <fstream>
@@ -124,13 +124,13 @@ TEST(GltfHostile, SparseAccessorsAreChecked) {
 }
 
 TEST(GltfHostile, SmallFilesCannotAskForMuchMemory) {
-    // Four thousand million vertices of zeros, in 300 bytes.
+    // Four billion zero vertices in 300 bytes.
     GltfBuilder b;
     b.append("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 0xffffffffu}});
     b.show({{"attributes", {{"POSITION", 0}}}});
     expectRefused(b, ErrorCode::outOfMemory, "out of proportion");
 
-    // One vertex buffer drawn by thousands of primitives.
+    // One vertex buffer used by thousands of primitives.
     GltfBuilder many;
     const int position = many.addFloats(std::vector<float>(30'000, 0.5f), "VEC3");
     nlohmann::json primitives;
@@ -162,7 +162,7 @@ TEST(GltfHostile, TextMustBeSane) {
     const std::string deep = std::string(500'000, '[') + std::string(500'000, ']');
     refused(R"({"asset":{"version":"2.0"},"extras":)" + deep + "}", "nested");
     refused(deep, "not an object");
-    // Every array of the root as something else, and full of something else.
+    // Every array of the root object with a wrong type, or with elements of a wrong type.
     for (const char* array : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials",
                               "meshes", "nodes", "samplers", "scenes", "skins", "textures", "extensionsUsed"}) {
         for (const char* value :

@@ -13,7 +13,7 @@ glm::vec2 apply(const TextureRef& ref, glm::vec2 uv) {
     return glm::vec2(ref.uvTransform * glm::vec3(uv, 1.0f));
 }
 
-/// A triangle whose material has a base colour texture with this extra content.
+/// A triangle whose material has a base colour texture with these extra properties.
 GltfBuilder textured(const nlohmann::json& info, const nlohmann::json& image) {
     GltfBuilder b;
     b.append("images", image);
@@ -126,7 +126,7 @@ TEST(GltfMaterial, RefusesUnreadableImages) {
     expectRefused(textured({}, {{"uri", dataUri("image/png", Bytes(40, 7))}}), ErrorCode::unsupported,
                   "neither PNG nor JPEG");
     expectRefused(textured({}, {{"bufferView", 99}}), ErrorCode::malformed, "image 0");
-    // A PNG of a hundred bytes that says it has 60,000 x 60,000 pixels.
+    // A PNG of a hundred bytes that claims 60,000 x 60,000 pixels.
     Bytes bomb = smallPng(2, 2);
     for (const std::size_t at : {16u, 20u}) {
         bomb[at + 2] = 0xea;

@@ -41,7 +41,7 @@ TEST(GltfMesh, WithoutIndicesTakesVerticesInOrder) {
 TEST(GltfMesh, StripsAndFansKeepTheirFront) {
     for (const int mode : {5, 6}) {
         GltfBuilder b;
-        // A strip goes zig-zag, a fan around its first vertex; both cover the unit square, facing +Z.
+        // A strip zigzags, a fan turns around its first vertex; both cover the unit square, facing +Z.
         const std::vector<float> fan{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
         const int position = b.addFloats(mode == 5 ? kSquare : fan, "VEC3");
         const Primitive p = readPrimitive(b, {{"attributes", {{"POSITION", position}}}, {"mode", mode}});
@@ -73,7 +73,7 @@ TEST(GltfMesh, ReadsInterleavedVertices) {
 
 TEST(GltfMesh, ReadsQuantisedAttributes) {
     GltfBuilder b;
-    // Positions as plain shorts, normals as normalised bytes, with the padding to 4 bytes that glTF asks for.
+    // Positions as plain shorts, normals as normalised bytes, padded to 4 bytes as glTF requires.
     const std::vector<std::int16_t> positions{0, 0, 0, 0, 300, 0, 0, 0, 0, -200, 0, 0};
     const std::vector<std::int8_t> normals{0, 0, 127, 0, 0, -128, 0, 0, 0, 0, 127, 0};
     const auto bytes = [](const auto& v) {
@@ -122,7 +122,7 @@ TEST(GltfMesh, PrimitivesWithoutMaterialGetTheDefaultOne) {
     const Primitive p = readPrimitive(b, {{"attributes", b.triangle()}});
     const Scene scene = readClean(b);
     ASSERT_EQ(p.material, 0);
-    ASSERT_EQ(scene.materials.size(), 1u);  // glTF 2.0: white, metallic 1, roughness 1
+    ASSERT_EQ(scene.materials.size(), 1u);  // glTF 2.0's default: white, metallic 1, roughness 1
     EXPECT_EQ(scene.materials[0].baseColor, glm::vec4(1));
     EXPECT_EQ(scene.materials[0].metallic, 1.0f);
     EXPECT_EQ(scene.materials[0].roughness, 1.0f);

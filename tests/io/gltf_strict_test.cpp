@@ -1,4 +1,4 @@
-// What tinygltf overlooks or takes for something else.
+// Errors that tinygltf overlooks or misinterprets.
 #include "io/gltf_strict.h"
 
 #include <fmt/format.h>
@@ -102,7 +102,7 @@ TEST(GltfStrict, MessagesAreNotALibrarys) {
     };
     refused(R"({"asset":{"version":"2.0"},"nodes":[{"translation":[1e999,0,0]}]})", "number at byte 57");
     refused(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":0,"uri":"data:;base64,"}]})", "no data");
-    // The binary chunk of no bytes, as a buffer of none.
+    // An empty binary chunk as an empty buffer.
     GltfBuilder b;
     b.json["buffers"] = {{{"byteLength", 0}}};
     const auto empty = read(b);
@@ -136,7 +136,7 @@ TEST(GltfStrict, LongNamesAreQuotedInPart) {
     nlohmann::json json = triangleJson();
     json["meshes"][0]["name"] = std::string(1 << 20, 'y');
     json["accessors"][0]["count"] = 4;
-    expectRefused(textOf(json), ErrorCode::malformed, "yyy...");  // of under 500 bytes, as all sentences
+    expectRefused(textOf(json), ErrorCode::malformed, "yyy...");  // under 500 bytes, as all messages
     json = triangleJson();
     json["buffers"][0]["uri"] = "../" + std::string(1 << 20, 'y');
     expectRefused(textOf(json), ErrorCode::unsupported, "yyy...");

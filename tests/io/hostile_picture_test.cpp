@@ -1,4 +1,4 @@
-// Small pictures that claim or unpack to much: what is filled is limited by what the file has.
+// Small files that claim, or unpack to, many pixels: the memory used is limited by the file's size.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -34,7 +34,7 @@ Bytes zeros(std::size_t count) {
     return packed;
 }
 
-/// 8 bits, or fewer a pixel, of grey.
+/// A grey PNG of `depth` bits per pixel.
 Bytes makePng(std::uint32_t width, std::uint32_t height, std::uint8_t depth, const Bytes& packed,
               bool interlaced = false) {
     Bytes png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
@@ -53,7 +53,7 @@ Result<HdrImage> decode(const Bytes& bytes, const ReadLimits& limits = {}) {
 }
 
 TEST(HostilePicture, ASmallFileMayNotFillTheMemory) {
-    // 16384 x 16384 black pixels, honestly there, in 33 kB: 3 GB.
+    // 16384 x 16384 black pixels that really are in the 33 kB: 3 GB.
     const Bytes png = makePng(16384, 16384, 1, zeros(std::size_t(16384) * 2049));
     ASSERT_LT(png.size(), 40'000u);
     const std::size_t before = peakMemory();
@@ -99,7 +99,7 @@ TEST(HostilePicture, MorePixelsThanAnyCompressionHolds) {
 }
 
 TEST(HostilePicture, FewerPixelsThanClaimedFillNoMore) {
-    // 4096 x 4096, of which 16 rows are there, and a text that makes the file long enough to be believed.
+    // Claims 4096 x 4096 and has 16 rows, and a text that makes the file long enough for the claim to be plausible.
     Bytes png = makePng(4096, 4096, 8, zeros(16 * 4097));
     appendChunk(png, "tEXt", Bytes(10'000, 'x'));
     const std::size_t before = peakMemory();
@@ -110,7 +110,7 @@ TEST(HostilePicture, FewerPixelsThanClaimedFillNoMore) {
 }
 
 TEST(HostilePicture, EveryKindOfPngIsRead) {
-    // Grey of 1, 2, 4, 8 and 16 bits, interlaced or not: 9 x 5 pixels of the lightest grey.
+    // 9 x 5 white pixels of 1, 2, 4, 8 and 16 bits, interlaced or not.
     for (const int depth : {1, 2, 4, 8, 16}) {
         const std::size_t row = 1 + std::size_t(9 * depth + 7) / 8;
         Bytes plain(5 * row, 0xff);

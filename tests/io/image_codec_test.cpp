@@ -1,4 +1,4 @@
-// Kinds of EXR and JPEG that writeImage does not make.
+// Variants of EXR, JPEG and PNG that writeImage does not produce.
 #include "io/image_codec.h"
 
 #include <ImfChannelList.h>
@@ -39,7 +39,7 @@ public:
 constexpr int kWidth = 5;
 constexpr int kHeight = 3;
 
-/// An EXR of these channels; the value of pixel i in channel c is i + 100 c. Its data window begins at (-2, 7).
+/// An EXR with these channels; the value of pixel i in channel c is i + 100 c. Its data window begins at (-2, 7).
 Bytes makeExr(const std::vector<std::string>& channels, Imf::Compression compression = Imf::ZIP_COMPRESSION,
               bool tiled = false, Imf::PixelType type = Imf::FLOAT) {
     const Imath::V2i origin(-2, 7);
@@ -129,7 +129,7 @@ TEST(ImageCodec, RefusesExrItCannotShow) {
     refused(huge, ErrorCode::outOfMemory, "32768 x 32768");
 }
 
-// The files are long enough for what they claim to be believed, of zeros.
+// The files are padded with zeros until their claims are plausible.
 TEST(ImageCodec, ExrThatClaimsMuchFillsLittle) {
     const auto claiming = [](std::int32_t side) {
         Bytes exr = makeExr({"R", "G", "B"});
@@ -165,7 +165,7 @@ Bytes makeJpeg(int width, int height, bool progressive) {
     return bytes;
 }
 
-// The format allows chunks of data without data, first ones too.
+// The format allows empty data chunks, even the first.
 TEST(ImageCodec, PngThatBeginsItsDataWithAnEmptyChunk) {
     HdrImage image(2, 1);
     image.pixels = {{1, 0, 0}, {0, 1, 1}};
@@ -193,7 +193,7 @@ TEST(ImageCodec, ReadsJpeg) {
     }
 }
 
-TEST(ImageCodec, CmykJpegIsRefusedInASentence) {
+TEST(ImageCodec, CmykJpegIsRefusedWithAMessage) {
     const Bytes pixels(4 * 16 * 16, 99);
     const tjhandle handle = tjInitCompress();
     unsigned char* data = nullptr;

@@ -77,7 +77,7 @@ TEST_F(ImageFile, PngComesBackWithinHalfAStep) {
     }
 }
 
-/// What a PNG holds of one brightness, in steps of 8 bits: 16 x 16 pixels.
+/// The codes of a PNG of 16 x 16 pixels of one brightness, in steps of 8 bits.
 std::vector<float> stepsOf(const fs::path& file, float display) {
     const float linear = display <= 0.04045f ? display / 12.92f : std::pow((display + 0.055f) / 1.055f, 2.4f);
     EXPECT_TRUE(writeImage(file, HdrImage(16, 16, glm::vec3(linear))));
@@ -172,7 +172,7 @@ TEST_F(ImageFile, DamageNeverCrashes) {
             return io::guarded(name, [&] { return io::decodeImage(content, format); });
         };
         ASSERT_TRUE(decode(whole));
-        constexpr std::size_t kChecksum = 4;  // of PNG's empty last chunk: without it, all pixels are there
+        constexpr std::size_t kChecksum = 4;  // of PNG's empty last chunk: without it, the pixels are complete
         for (std::size_t length = 0; length + kChecksum < whole.size(); ++length) {
             EXPECT_FALSE(decode(std::span(whole).first(length))) << name << " of " << length << " bytes";
         }
@@ -186,7 +186,7 @@ TEST_F(ImageFile, DamageNeverCrashes) {
     }
 }
 
-TEST_F(ImageFile, RefusesPicturesThatAreNone) {
+TEST_F(ImageFile, RefusesInvalidPictures) {
     const auto expect = [&](const char* name, const HdrImage& image, const ToneMap& map, ErrorCode code) {
         const auto result = writeImage(path(name), image, map);
         ASSERT_FALSE(result);
@@ -224,7 +224,7 @@ TEST_F(ImageFile, FailedWritesLeaveNothing) {
 TEST_F(ImageFile, FullDiskKeepsTheOldFile) {
     ASSERT_TRUE(writeImage(path("a.exr"), gradient(4, 4)));
     const std::vector<char> before = bytes("a.exr");
-    // A limit on file sizes fails a write in the middle, as a full disk does.
+    // A limit on file sizes makes a write fail half way, as on a full disk.
     std::signal(SIGXFSZ, SIG_IGN);
     rlimit old{};
     ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
@@ -241,7 +241,7 @@ TEST_F(ImageFile, FullDiskKeepsTheOldFile) {
 
 TEST_F(ImageFile, ReadOnlyFolder) {
     if (geteuid() == 0) {
-        // Root may write anywhere: a folder under a file is the next best that cannot be written.
+        // Root may write anywhere, except to a folder below a file.
         write("file", {'x'});
         EXPECT_EQ(writeImage(path("file") / "a.exr", gradient(2, 2)).error().code, ErrorCode::writeFailed);
         return;

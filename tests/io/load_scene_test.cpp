@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// `warnings`: matches what the reader has to say.
+/// `warnings`: matches the reader's warnings.
 Scene load(const char* name, const testing::Matcher<const std::vector<std::string>&>& warnings = testing::IsEmpty()) {
     auto loaded = loadScene(scenesFolder() / name);
     EXPECT_TRUE(loaded) << loaded.error().message << " (set PROBEGI_SCENES to the folder of the real scenes)";
@@ -25,7 +25,7 @@ Scene load(const char* name, const testing::Matcher<const std::vector<std::strin
     EXPECT_THAT(loaded->warnings, warnings);
     return std::move(loaded->scene);
 }
-/// Grids that follow the camera are not there; the file asks for one.
+/// The file requests a grid that follows the camera, which is not supported.
 testing::Matcher<const std::vector<std::string>&> scrollingIgnored() {
     return testing::ElementsAre(HasSubstr("infiniteScrolling.enabled is ignored"));
 }
@@ -40,7 +40,7 @@ std::size_t vertices(const Scene& scene) {
     return count;
 }
 
-// The expected numbers are those of the scenes' own description.
+// The expected numbers are from the scenes' own description.
 
 TEST(LoadScene, Sponza) {
     const Scene scene = load("sponza/sponza.glb");
@@ -93,7 +93,7 @@ TEST(LoadScene, TwoRoomsWithItsSettings) {
     EXPECT_EQ(triangles(scene), 90u);
     EXPECT_EQ(scene.cameras.size(), 3u);
     EXPECT_EQ(scene.lights.at(0).intensity, glm::vec3(2.25f));
-    // The open room's camera looks to +X and down, at the doorway.
+    // The camera in the open room looks along +X and down, at the doorway.
     const ScenePose pose = poseAt(scene);
     EXPECT_GT(pose.cameras.at(0).forward.x, 0.8f);
     EXPECT_LT(pose.cameras.at(0).forward.y, 0.0f);
@@ -119,7 +119,7 @@ protected:
             .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
         return m_folder / name;
     }
-    /// A triangle in a node that stands at x.
+    /// Writes a triangle in a node at x.
     std::filesystem::path writeTriangle(double x) const {
         GltfBuilder b;
         b.show({{"attributes", b.triangle()}});

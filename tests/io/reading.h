@@ -15,7 +15,7 @@ inline Result<LoadedScene> read(const GltfBuilder& builder) {
     return read(builder.glb());
 }
 
-/// The scene, which must load without a warning; an empty one (and a failed test) otherwise.
+/// The scene, which must load without warnings; otherwise fails the test and returns an empty one.
 inline Scene readClean(const GltfBuilder& builder) {
     auto loaded = read(builder);
     EXPECT_TRUE(loaded) << loaded.error().message;
@@ -24,7 +24,7 @@ inline Scene readClean(const GltfBuilder& builder) {
     return std::move(loaded->scene);
 }
 
-/// Expects a failure of this kind whose sentence begins with the file and contains `words`.
+/// Expects an error of this kind whose message begins with the file name and contains `words`.
 inline void expectRefused(const Bytes& bytes, ErrorCode code, const std::string& words) {
     const auto loaded = read(bytes);
     ASSERT_FALSE(loaded) << "was read, but should say: " << words;

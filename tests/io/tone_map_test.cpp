@@ -47,12 +47,12 @@ TEST(ToneMap, FilmicIsTheIdentityInTheDarkAndRisesEverywhere) {
     for (float level = 0.0f; level < 20.0f; level += 0.01f) {
         const glm::vec3 display = toDisplay(level * glm::vec3(1.0f, 0.5f, 0.2f), film);
         for (int c = 0; c < 3; ++c) EXPECT_GE(display[c], previous[c] - 1e-6f) << level;
-        EXPECT_GE(display.x, display.y);  // the order of the channels, hence the hue, holds
+        EXPECT_GE(display.x, display.y);  // the order of the channels, hence the hue, is kept
         EXPECT_GE(display.y, display.z);
         previous = display;
     }
-    EXPECT_LT(toDisplay(glm::vec3(1.5f), film).x, 0.99f);  // a shoulder, not a clip
-    EXPECT_GT(previous.z, 0.7f);                           // what is overexposed bleaches
+    EXPECT_LT(toDisplay(glm::vec3(1.5f), film).x, 0.99f);  // a shoulder, no clipping
+    EXPECT_GT(previous.z, 0.7f);                           // overexposed colours bleach
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace probegi::kernels {
 namespace {
 
-// Lambert: radiosity albedo * E, spread evenly over the hemisphere's pi.
+// Lambert: radiosity albedo * E, divided by the hemisphere's pi.
 TEST(Bounce, isLambertOfTheAlbedo) {
     const vec3 light = bounceRadiance({0.5f, 0.25f, 0.0f}, {4, 8, 2});
     EXPECT_NEAR(light.x, 2 / 3.14159265, 1e-6);

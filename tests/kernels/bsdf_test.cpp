@@ -20,7 +20,7 @@ vec3 direction(double cosTheta, double phi) {
     return {float(s * std::cos(phi)), float(s * std::sin(phi)), float(cosTheta)};
 }
 
-/// Directions to look from, normal to grazing.
+/// View directions from normal to grazing.
 const std::vector<vec3> kViews = {direction(1, 0), direction(0.9, 1), direction(0.5, 2), direction(0.1, 3)};
 
 /// Integral of `value` over the hemisphere, by quadrature in cosine and angle.
@@ -63,8 +63,8 @@ TEST(Bsdf, nothingBelowTheSurface) {
     EXPECT_EQ(pdfBsdf(b, vec3(0, 0, 1), direction(-0.5, 0)), 0.0f);
 }
 
-/// White furnace of the coat alone: with a reflectance of 1 it sends back at most what came, and nearly all of it where
-/// it is smooth. (What rough coats lose is light that bounced twice between facets: glTF's model leaves it out.)
+/// White furnace of the coat alone: with a reflectance of 1 it reflects at most what arrives, and nearly all of it if
+/// it is smooth. (Rough coats lose light that bounces between facets, which glTF's model leaves out.)
 TEST(GgxCoat, losesButNeverMakesEnergy) {
     for (const float roughness : {0.25f, 0.5f, 0.75f, 1.0f}) {
         const Bsdf b = makeBsdf(vec3(1.0f), 1.0f, roughness, false);
@@ -89,8 +89,8 @@ protected:
     }
 };
 
-/// Bins of equal solid angle: the share of the samples in each is the integral of the density, by chi-square; samples
-/// below the surface are what the density lacks to 1.
+/// In bins of equal solid angle, the share of samples is the integral of the density, by chi-square; the share below
+/// the surface is what the density's integral lacks to 1.
 TEST_P(Sampling, densityIsThatOfTheSamples) {
     constexpr int kRows = 5, kColumns = 8, kSamples = 20000, kFine = 24;
     for (const vec3& wo : kViews) {
@@ -128,7 +128,7 @@ TEST_P(Sampling, densityIsThatOfTheSamples) {
     }
 }
 
-/// The mean weight of samples is the albedo that quadrature finds.
+/// The mean weight of samples is the albedo by quadrature.
 TEST_P(Sampling, weightsAverageToTheAlbedo) {
     const Bsdf b = bsdf();
     for (const vec3& wo : kViews) {
@@ -147,7 +147,7 @@ TEST_P(Sampling, weightsAverageToTheAlbedo) {
 INSTANTIATE_TEST_SUITE_P(materials, Sampling,
                          testing::Combine(testing::Values(0.0f, 0.5f, 1.0f), testing::Values(0.4f, 0.7f, 1.0f)));
 
-/// Appendix B.3.5.
+/// glTF 2.0, appendix B.3.5.
 TEST(Bsdf, metalsHaveTheirColourInTheCoat) {
     const Bsdf b = makeBsdf(vec3(0.8f), 0.25f, 0.5f, false);
     EXPECT_FLOAT_EQ(b.diffuse.y, 0.75f * 0.8f);
@@ -155,7 +155,7 @@ TEST(Bsdf, metalsHaveTheirColourInTheCoat) {
     EXPECT_FLOAT_EQ(b.alpha, 0.25f);
 }
 
-/// By energy, but each lobe of a material that has both gets a tenth of the samples at least.
+/// By energy, but if a material has both lobes, each gets at least a tenth of the samples.
 TEST(Bsdf, lobesAreChosenByEnergy) {
     const auto probability = [](float base, float metallic, bool diffuseOnly) {
         return diffuseProbability(makeBsdf(vec3(base), metallic, 0.5f, diffuseOnly), vec3(0, 0, 1));
@@ -167,7 +167,7 @@ TEST(Bsdf, lobesAreChosenByEnergy) {
     EXPECT_EQ(probability(0.3f, 0, true), 1.0f);
 }
 
-/// The smoothest material that exists here: a mirror, and finite.
+/// The smoothest material possible: a mirror with finite values.
 TEST(Bsdf, ofRoughnessZeroIsAMirror) {
     const Bsdf b = makeBsdf(vec3(1.0f), 1.0f, 0.0f, false);
     Random random(1, 1);

@@ -67,7 +67,7 @@ void setByte(uvec2& words, int slot, uint value) {
     words[slot / 4] |= value << (8 * (slot % 4));
 }
 
-// A node at (10, 20, 30) with steps of 1, 2 and 1/2 m, and in it, in quantised planes, boxes of `lower` and `upper`.
+// A node at (10, 20, 30) with steps of 1, 2 and 1/2 m, whose boxes have the quantised planes `lower` and `upper`.
 struct Node {
     BvhNode node{};
 
@@ -101,7 +101,7 @@ Node oneLeaf() {
 
 TEST(BvhNode, aBoxIsMetWhereItStands) {
     const Node n = oneLeaf();
-    // Along each axis and back, through the middle; beside the box by a per cent of its side.
+    // Along each axis in both directions, through the middle; then beside the box by 1 % of its side.
     const vec3 lower(10, 20, 30), upper(20, 40, 35), middle(15, 30, 32.5f);
     for (int axis = 0; axis < 3; ++axis)
         for (const float sign : {1.0f, -1.0f}) {
@@ -128,7 +128,7 @@ TEST(BvhNode, aBoxIsMetWhereItStands) {
         }
 }
 
-// Along a face or an edge no rounding loses the box: it is padded by a millionth of what goes into a distance.
+// Rays along a face or an edge must not miss the box by rounding: it is padded by a millionth of a distance's terms.
 TEST(BvhNode, facesAndEdgesBelongToTheBox) {
     const Node n = oneLeaf();
     EXPECT_EQ(n.hits({-90, 40, 32}, {1, 0, 0}), kLeaf);
@@ -138,7 +138,7 @@ TEST(BvhNode, facesAndEdgesBelongToTheBox) {
     EXPECT_EQ(n.hits({15, 30, -70}, {0, 0, 1}, 0, 99.99f), 0u);
 }
 
-// A child of slot s stands at 24 + (s ^ octant): what lies nearer along the ray is highest.
+// A child in slot s has bit 24 + (s ^ octant): the nearest along the ray has the highest bit.
 TEST(BvhNode, innerNodesComeInTheOrderOfTheOctant) {
     Node n;
     for (int slot = 0; slot < 8; ++slot) {

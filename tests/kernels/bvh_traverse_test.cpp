@@ -1,4 +1,4 @@
-// The traversal by hand, on a world of two nodes. tests/bvh has it on real trees, against all triangles one by one.
+// The traversal by hand, in a world of two nodes. tests/bvh tests it on real trees, against brute force.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -12,7 +12,7 @@ struct World {
     std::vector<BvhNode> nodes;
     std::vector<BvhTriangle> triangles;
     std::vector<BvhInstance> instances;
-    bool solid = true;  // the masked triangles
+    bool solid = true;  // whether rays hit masked triangles
 };
 World world;
 
@@ -37,7 +37,7 @@ bool bvhAlphaPasses(int, int, vec2) {
 namespace probegi::kernels {
 namespace {
 
-// A node whose only child, a leaf in slot 0, is all of -127..128 m.
+// A node whose only child, a leaf in slot 0, covers -127..128 m.
 BvhNode leafNode(uint first, uint count) {
     BvhNode n{};
     n.origin = vec3(-127);
@@ -49,13 +49,13 @@ BvhNode leafNode(uint first, uint count) {
     return n;
 }
 
-// A triangle that the z axis meets at `z`, a third of the way to each corner.
+// A triangle that the z axis hits at `z`, with barycentric weights of a third.
 BvhTriangle across(float z, int primitive, int geometry = 0) {
     return {{-1, -1, z}, primitive, {2, -1, z}, geometry, {-1, 2, z}, 0};
 }
 
-// Root 0: triangles at z = 6, 4 (masked) and 8. Root 1: an instance of root 2, which has one at z = 1, moved to z = 11
-// and turned so that its y is the world's x.
+// Root 0: triangles at z = 6, 4 (masked) and 8. Root 1: an instance of root 2, which has a triangle at z = 1, moved to
+// z = 11 and turned so that its y is the world's x.
 void makeWorld() {
     world.nodes = {leafNode(0, 3), leafNode(0, 1), leafNode(3, 1)};
     world.triangles = {across(6, 10), across(4, 11, 1), across(8, 12), across(1, 20)};
@@ -95,7 +95,7 @@ TEST(BvhTraverse, findsWhatInstancesPlace) {
     EXPECT_EQ(bvhClosestHit({-0.9f, 0.9f, 0}, 9, {0, 0, 1}, 99, 0, 1).primitive, -1);
 }
 
-TEST(BvhTraverse, whatIsNotThereIsAMiss) {
+TEST(BvhTraverse, raysThatHitNothingAreMisses) {
     makeWorld();
     for (const BvhHit& h : {hit(kBvhNone, kBvhNone), hit(0, 1, 0, 3), hit(0, 1, 12), hit(0, 1, 0, 99, {0, 0, -1}),
                             hit(0, 1, 2, 1), hit(0, 1, 0, 99, {0, 0, 0})}) {
@@ -115,9 +115,9 @@ TEST(BvhTraverse, occlusionIsAnyHit) {
     EXPECT_FALSE(occluded(0, 3));
 }
 
-// Bits 24..31: which are left, by slot ^ octant; 0..7: which slots hold inner nodes, in whose order they follow.
+// Bits 24..31: remaining children, by slot ^ octant. Bits 0..7: slots with inner nodes, which are stored in this order.
 TEST(BvhTraverse, childrenOfAGroupInOrder) {
-    uvec2 group(100, 0xa0000000u | 0x96u);  // slots 1, 2, 4 and 7; hit are those at bits 31 and 29
+    uvec2 group(100, 0xa0000000u | 0x96u);  // slots 1, 2, 4 and 7; those at bits 31 and 29 are hit
     EXPECT_EQ(bvhNextChild(group, 0), 103u) << "slot 7, the fourth";
     EXPECT_EQ(group.y, 0x20000000u | 0x96u);
     EXPECT_EQ(bvhNextChild(group, 1), 102u) << "bit 5, octant 1: slot 4, the third";

@@ -7,7 +7,7 @@
 namespace probegi::kernels {
 namespace {
 
-// ITU-R BT.709-6, section 3.2: white is 1, and green counts most.
+// ITU-R BT.709-6, section 3.2: white is 1, and green has the largest weight.
 TEST(Luminance, isThatOfRec709) {
     EXPECT_NEAR(luminance(vec3(1.0f)), 1.0f, 1e-6f);
     EXPECT_FLOAT_EQ(luminance({1, 0, 0}), 0.2126f);

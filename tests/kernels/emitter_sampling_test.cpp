@@ -9,7 +9,7 @@
 namespace probegi::kernels {
 namespace {
 
-TEST(EmitterChoice, hasOneLookInEachOfEqualParts) {
+TEST(EmitterChoice, hasOneSampleInEachOfEqualParts) {
     for (const uint looks : {1u, 3u, 4u, 16u})
         for (uint probe = 0; probe < 200; ++probe) {
             const uint seed = emitterSeed(7, probe);
@@ -58,14 +58,14 @@ TEST(EmitterAim, isWhereThePointIs) {
     EXPECT_NEAR(aim.distance, 5, 1e-6);
     EXPECT_NEAR(glm::length(aim.direction - vec3(0.8f, 0.6f, 0)), 0, 1e-6);
     EXPECT_NEAR(aim.cosine, 0.6, 1e-6);
-    // From the plane itself, from the point itself, and at what is no triangle there is nothing to see.
+    // Nothing is visible from the triangle's plane, from the point itself, or of a degenerate triangle.
     EXPECT_EQ(aimAtEmitter({-1, 5, 3}, {1, 5, 3}, {4, 0, 0}, {0, 0, 2}, {0, 0}).cosine, 0.0f);
     EXPECT_EQ(aimAtEmitter({1, 5, 3}, {1, 5, 3}, {4, 0, 0}, {0, 0, 2}, {0, 0}).cosine, 0.0f);
     EXPECT_EQ(aimAtEmitter({1, 2, 3}, {1, 5, 3}, {4, 0, 0}, {8, 0, 0}, {0, 0}).cosine, 0.0f);
 }
 
-// What both ways of meeting a point bring on average is its light, whatever the shares: the density of rays times their
-// share plus that of looks times theirs, per square metre of the emitter.
+// On average, rays and samples together contribute all of a point's light, whatever their shares: the density of rays
+// times their share plus that of samples times theirs, per square metre of the emitter.
 TEST(EmissionShare, bothWaysTogetherBringAllLight) {
     for (const int rays : {8, 64, 144, 4096})
         for (const int looks : {1, 4, 16})
@@ -86,7 +86,7 @@ TEST(EmissionShare, goesToTheDenserWay) {
     EXPECT_EQ(emissionShare(1, 1), 0.5f);
     EXPECT_NEAR(emissionShare(3, 1), 81.0f / 82.0f, 1e-6);
     EXPECT_EQ(emissionShare(0, 1), 0.0f);
-    EXPECT_EQ(rayEmissionShare(144, 4, 0.0f, 2.0f), 1.0f);  // a material that is never looked at
+    EXPECT_EQ(rayEmissionShare(144, 4, 0.0f, 2.0f), 1.0f);  // a material that is never sampled
     EXPECT_LT(rayEmissionShare(144, 4, 25.0f, 2.0f), 1e-4f);
     const EmitterAim never{{0, 0, 1}, 2.0f, 1.0f};
     EXPECT_EQ(emitterLightFactor(144, 4, 0.0f, never), 0.0f);

@@ -37,7 +37,7 @@ TEST(GpuScene, texelsHaveRedInTheLowestByte) {
     EXPECT_EQ(texelCodes(0x44ff2211u), vec3(0x11, 0x22, 0xff));
 }
 
-// As Recorder dispatches: a row of 32,768 groups at most, and no group too few.
+// As in Recorder: rows of at most 32,768 groups, and enough groups.
 TEST(Dispatch, groupsCoverEveryThread) {
     for (const uint count : {1u, 64u, 65u, 32768u * 64u, 32768u * 64u + 1u, 5000000u}) {
         const uvec3 groups = threadGroups(count);

@@ -1,4 +1,4 @@
-// The look-up in one volume, on fields of closed form.
+// The look-up in one volume, in fields of closed form.
 #include "kernels/lookup/irradiance.h"
 
 #include <gtest/gtest.h>
@@ -73,7 +73,7 @@ struct Question {
     vec3 point, normal, viewer;
 };
 
-// In the volume and around it, a third of the normals along an axis, a fifth without a viewer.
+// In and around the volume; a third of the normals are along an axis, a fifth have no viewer.
 std::vector<Question> questions(int count) {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
@@ -102,7 +102,7 @@ void expectNear(vec3 got, vec3 want, float relative) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], want[c], relative * std::abs(want[c])) << c;
 }
 
-// Light, walls and distances that differ from cell to cell and by direction, in the volume's frame.
+// Light, walls and distances that vary from cell to cell and with the direction, in the volume's frame.
 FormulaField variedField(const Volume& v, int guard, int rules) {
     FormulaField field;
     field.guard = guard;
@@ -129,7 +129,7 @@ void forEachKind(Check check) {
         for (const int rules : {kRulesMeasured, kRulesPaper}) check(guard, rules);
 }
 
-// Quality.md: inside, on faces and outside, whatever the guard, the walls, the turn and the phase.
+// Inside, on faces and outside, with any guard, walls, orientation and phase.
 TEST(Lookup, aConstantFieldIsConstantEverywhere) {
     Volume turned = makeVolume({3, 1, 2}, 40);
     turned.turned = 1;
@@ -143,7 +143,7 @@ TEST(Lookup, aConstantFieldIsConstantEverywhere) {
     });
 }
 
-// Where in its ring a probe is, and where in the pool a volume is, changes no bit.
+// A probe's place in its ring, and a volume's in the pool, change no bit.
 TEST(Lookup, phaseAndFirstSlotChangeNothing) {
     forEachKind([](int guard, int rules) {
         const Volume plain = makeVolume();
@@ -157,8 +157,8 @@ TEST(Lookup, phaseAndFirstSlotChangeNothing) {
     });
 }
 
-// A volume that is turned, with all that its probes see and with the question, answers as before. What tests visibility
-// may choose another side of a step by rounding.
+// If a volume is turned together with its probes' contents and the query, the result stays the same. With a visibility
+// test, rounding may choose another side of a step.
 TEST(Lookup, aTurnedVolumeAnswersTurnedQuestions) {
     forEachKind([](int guard, int rules) {
         const Volume plain = makeVolume();
@@ -174,7 +174,7 @@ TEST(Lookup, aTurnedVolumeAnswersTurnedQuestions) {
     });
 }
 
-// In the middle of a cell, by the paper's rules: facing alone tells the probes apart.
+// In the middle of a cell, by the paper's rules: only the facing differs between the probes.
 TEST(CageWeights, areTheProductOfTheirParts) {
     const Volume v = makeVolume();
     FormulaField field;
@@ -192,7 +192,7 @@ TEST(CageWeights, areTheProductOfTheirParts) {
         sum += w.weight[corner];
     }
     EXPECT_NEAR(w.weightSum, sum, 1e-6f);
-    EXPECT_EQ(w.trust, 0.0f);  // the paper knows no pairs
+    EXPECT_EQ(w.trust, 0.0f);  // the paper has no pairs
     EXPECT_EQ(w.step, 0);
 }
 
@@ -229,7 +229,7 @@ TEST(CageWeights, pairsLieAlongTheNormal) {
         }
 }
 
-// At the volume's faces there is no layer beyond.
+// At the volume's faces there is no further layer of probes.
 TEST(CageWeights, pairsNeedALayerBeyond) {
     const Volume v = makeVolume();
     const FormulaField field;
@@ -241,7 +241,7 @@ TEST(CageWeights, pairsNeedALayerBeyond) {
     }
 }
 
-// Another pass may say which corners see the point: the answer is theirs.
+// Another pass may provide which corners see the point: only they count.
 TEST(CageWeights, givenVisibilityDecides) {
     const Volume v = makeVolume();
     FormulaField field;
@@ -267,7 +267,7 @@ TEST(Gather, sumsByTheWeights) {
     w.up = 1;
     w.step = 10;
     FormulaField field;
-    // Square roots of light that are the slot.
+    // The square root of the light is the slot.
     field.radiance = [](int slot, vec3) { return vec3(float(slot * slot), 1, 0); };
     const CageLight light = gatherLight(field, w, vec3(0, 1, 0));
     EXPECT_NEAR(light.root.x, 140.0f, 1e-3f);  // 0 + 1 + 4 + ... + 49
@@ -278,7 +278,7 @@ TEST(Gather, sumsByTheWeights) {
     EXPECT_NEAR(storedRoot(field, 3, vec3(0, 1, 0)).x, 3.0f, 1e-5f);
 }
 
-// All probes of the cage in walls: the neighbours answer, and it is counted.
+// All probes of the cage are in walls: the neighbours are used, and the fallback is counted.
 TEST(Lookup, neighboursAnswerForACageInWalls) {
     const Volume v = makeVolume();
     FormulaField field;
@@ -307,7 +307,7 @@ TEST(Cage, isTheVolumesAroundThePoint) {
     EXPECT_EQ(cage.bias, selfShadowBias(normal, viewer, 0.5f, 0.4f));
     EXPECT_EQ(cage.base, vec3(1, 1, 1));
     expectNear(cage.alpha, vec3(0.5f, 0.5f, 1.0f / 3), 1e-5f);
-    // Beyond the volume its nearest point; nobody who looks: the normal.
+    // Outside the volume its nearest point is used; without a viewer, the normal.
     const Cage outside = cageAround(v, {99, 99, -99}, normal, vec3(0.0f), 0.4f, kRulesMeasured);
     EXPECT_EQ(outside.position, vec3(3, 4.5f, -3));
     EXPECT_EQ(outside.base, vec3(3, 4, 0));
@@ -318,7 +318,7 @@ TEST(Guards, momentsTestTheBiasedPoint) {
     const Volume v = makeVolume();
     FormulaField field;
     field.guard = kMoments;
-    // Exact in binary, and so is their variance: compilers fold and fuse as they like.
+    // Exact in binary, as is their variance, so that constant folding and fused operations change nothing.
     field.moments = [](int slot, vec3 at) { return slot == 7 && at.x > 0.9f ? vec2(0.25f, 0.125f) : vec2(0.0f); };
     // 1.25 m are 0.5 of the farthest distance.
     EXPECT_EQ(guardSeen(field, v, 7, vec3(1.25f, 0, 0)), chebyshevWeight(0.25f, 0.125f, 0.5f, kRulesMeasured));
@@ -327,7 +327,7 @@ TEST(Guards, momentsTestTheBiasedPoint) {
     EXPECT_EQ(guardFar(field, v, 7, vec3(9, 0, 0)), chebyshevFloor(kRulesMeasured));
     EXPECT_EQ(momentsSeen(field, v, 8, vec3(1.25f, 0, 0)), chebyshevFloor(kRulesMeasured));
     EXPECT_EQ(momentsFar(field, v, 8, vec3(1.25f, 0, 0)), chebyshevFloor(kRulesMeasured));
-    // Stored by the world's directions: the volume's x is the world's -z here.
+    // Maps are stored by world directions: the volume's x is the world's -z here.
     Volume turned = v;
     turned.turned = 1;
     turned.orientation = vec4(0, std::sqrt(0.5f), 0, std::sqrt(0.5f));

@@ -36,7 +36,7 @@ TEST(Octahedral, encodeStaysInTheSquareAlsoOnTheAxes) {
 }
 
 // The map is continuous across the square's edges: a border texel, extrapolated beyond the edge, has the direction of
-// the interior texel that it repeats.
+// the interior texel that it copies.
 TEST(Octahedral, borderTexelsRepeatTheirNeighboursOnTheSphere) {
     const int size = 8;
     const float texelAngle = 2.0f / size;
@@ -56,7 +56,7 @@ TEST(Octahedral, borderTexelsRepeatTheirNeighboursOnTheSphere) {
     EXPECT_EQ(octWrapTexel(3, 5, size), ivec2(3, 5));
 }
 
-// Both ways round: every border texel is a copy of exactly the texel that it repeats, and of none twice.
+// Every border texel is written exactly once, as a copy of the right texel.
 TEST(Octahedral, copiesFillTheBorder) {
     for (const int size : {4, 8}) {
         std::set<std::pair<int, int>> border;
@@ -122,8 +122,8 @@ TEST(RaySet, rotationsAreRotationsAndUniform) {
     EXPECT_LT(glm::length(meanOfZ), 4.0f / std::sqrt(float(frames)));
 }
 
-// Sets of 40 frames, turned at random or shifted: how many of their directions lie in a cap. Shifted ones say it with
-// half the error: measured 0.48 at 144 rays, independent sets have 1.
+// Estimates of a cap's area by the directions of 40 frames: shifted sets have half the error of randomly turned ones.
+// Measured 0.48 at 144 rays; independent sets would have 1.
 TEST(RaySet, shiftsFillEachOthersGaps) {
     for (const uint count : {64u, 144u, 512u}) {
         const int trials = 100, frames = 40;

@@ -7,7 +7,7 @@
 namespace probegi::kernels {
 namespace {
 
-// 90 degrees high and twice as wide, looking along -Z from (1, 2, 3): the image plane at distance 1 is 4 x 2.
+// A vertical angle of 90 degrees, twice as wide, looking along -Z from (1, 2, 3): the plane at distance 1 is 4 x 2.
 const PinholeCamera kCamera = makePinhole({1, 2, 3}, {0, 0, -1}, {0, 1, 0}, 0.5f * kPi, 200, 100);
 
 void expectDirection(float x, float y, vec3 towards) {

@@ -18,7 +18,7 @@ TEST(RayDatum, onlyUsableRadianceIsSafe) {
     for (const float bad : {kNan, -kNan, kInfinity, -kInfinity, -1e-30f, 1e30f, 3e38f}) EXPECT_EQ(safeRadiance(bad), 0);
 }
 
-TEST(RayDatum, aDistanceThatIsNoneIsAMiss) {
+TEST(RayDatum, anInvalidDistanceIsAMiss) {
     for (const float good : {0.0f, -3.0f, 1e30f, kInfinity, -kInfinity}) EXPECT_EQ(safeDistance(good), good);
     for (const float bad : {kNan, -kNan}) EXPECT_GE(safeDistance(bad), kMissDistance);
 }
@@ -41,7 +41,7 @@ TEST(RayDatum, lightOfBothSidesOfASheetArrives) {
     EXPECT_EQ(arrivingRadiance(-5, light), vec3(0.0f)) << "a backface";
     EXPECT_EQ(arrivingRadiance(-5, radianceFromBack(light)), light);
     EXPECT_EQ(arrivingRadiance(5, {kNan, -1, 2}), vec3(0, 0, 2));
-    // Black from the back of two sides is no backface.
+    // Black light from the back of a double-sided surface is not a backface.
     const vec3 black = radianceFromBack(vec3(0.0f));
     EXPECT_FALSE(hitBackface(-5, black.x));
     EXPECT_LT(arrivingRadiance(-5, black).y, 1e-29f);
@@ -67,7 +67,7 @@ TEST(ProbeBlend, weightsAreCosinesAndTheirPowers) {
     EXPECT_EQ(visibilityWeight(n, -w, 3), 0.0f);
 }
 
-// Weights are left out where they are below 1e-8 of the largest.
+// Weights below 1e-8 of the largest are left out.
 TEST(ProbeBlend, negligibleWeightsAreAHundredMillionthOfTheLargest) {
     for (const float exponent : {50.0f, 100.0f}) {
         const float least = leastVisibilityCosine(0.9f, exponent);
@@ -84,7 +84,7 @@ TEST(ProbeBlend, distancesAreSharesOfTheFarthest) {
     EXPECT_EQ(visibilityDistance(0, 4), 0.0f);
 }
 
-// Each channel by itself, towards the old values by the hysteresis.
+// Each channel is blended separately; the hysteresis is the share of the old value.
 TEST(ProbeBlend, channelsAreBlendedApart) {
     const vec3 old(1, 2, 0.5f), mean(32, 1, 0);  // roots 2, 1, 0
     const vec3 encoded = blendEncoded(old, mean, {0.75f, 0, 0});
@@ -97,7 +97,7 @@ TEST(ProbeBlend, channelsAreBlendedApart) {
     EXPECT_NEAR(linear.z, std::pow(0.75 / 32, 0.2), 1e-6);
 }
 
-// Listing 3 asks the channel that changes most, and the texel's largest value.
+// Listing 3 compares the channel that changes most with the texel's largest value.
 TEST(ProbeBlend, anyChannelMayTripTheThresholds) {
     const BlendRule rule{0.9f, 0.25f, 0.8f};
     for (int c = 0; c < 3; ++c) {
@@ -109,7 +109,7 @@ TEST(ProbeBlend, anyChannelMayTripTheThresholds) {
         EXPECT_EQ(texelHysteresis(vec3(1.0f), most, rule), 0.0f) << c;
         EXPECT_EQ(texelHysteresis(dark, vec3(0.0f), rule), 0.0f) << c;
         EXPECT_EQ(texelHysteresis(vec3(0.0f), dark, rule), 0.0f) << c;
-        // In the light of another channel the same change is small.
+        // With light in another channel the same change is small.
         vec3 lit = some;
         lit[(c + 1) % 3] = 4;
         vec3 before(1.0f);
@@ -121,7 +121,7 @@ TEST(ProbeBlend, anyChannelMayTripTheThresholds) {
     EXPECT_EQ(texelHysteresis(vec3(1.0f), vec3(0.1f), BlendRule{0.9f, 0, 0.8f}), 0.0f);
 }
 
-// Rays that are spread evenly, as many as integrate the lobe: every texel gets its share of them, and that is 1.
+// With evenly spread rays, enough to integrate the lobe, every texel has an evidence of 1.
 TEST(ProbeBlend, evenRaysAreEvidenceOfOne) {
     constexpr int kRays = 20000;
     for (const float exponent : {1.0f, 50.0f, 200.0f})

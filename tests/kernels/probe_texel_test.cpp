@@ -13,7 +13,7 @@ vec3 storedBy(uvec3 bits) {
     return {unpackHalf(bits.x), unpackHalf(bits.y), unpackHalf(bits.z)};
 }
 
-// The mean over frames of what one texel becomes; a half float's dither of 2^-10 leaves 2^-11 / sqrt(frames).
+// Mean of one stored texel over frames; the dither of a half float, 2^-10, leaves an error of 2^-11 / sqrt(frames).
 vec3 meanTexel(vec3 old, vec3 now, BlendRule rule, bool linear) {
     glm::dvec3 sum(0.0);
     for (uint frame = 0; frame < kFrames; ++frame)

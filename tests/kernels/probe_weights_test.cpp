@@ -63,7 +63,7 @@ TEST(ProbeQuery, chebyshevIsOneInFrontAndFollowsItsBoundBehind) {
     EXPECT_NEAR(chebyshevWeight(mean, square, 0.5f, kRulesMeasured), bound * bound * bound, 1e-5f);
     EXPECT_FLOAT_EQ(chebyshevWeight(mean, square, 100.0f, kRulesMeasured), 0.003f);
     EXPECT_FLOAT_EQ(chebyshevWeight(mean, square, 100.0f, kRulesPaper), 0.05f);
-    // Without variance: a sharp step, and no division of zero by zero.
+    // Without variance: a sharp step, and no 0 / 0.
     EXPECT_FLOAT_EQ(chebyshevWeight(0.5f, 0.25f, 0.5f, kRulesMeasured), 1.0f);
     EXPECT_FLOAT_EQ(chebyshevWeight(0.5f, 0.25f, 0.51f, kRulesMeasured), 0.003f);
 }
@@ -76,7 +76,7 @@ TEST(ProbeQuery, crushIsContinuousMonotoneAndKillsTheFloor) {
     for (float w = 0.01f; w < 0.4f; w += 0.01f) EXPECT_LT(crushWeight(w), crushWeight(w + 0.01f));
 }
 
-// Every probe that shares a face with the cage, once, and no other.
+// Every probe that shares a face with the cage, exactly once, and no other.
 TEST(ProbeNeighbours, areThoseOfTheCagesFaces) {
     const ivec3 base(3, 5, 7);
     std::set<std::array<int, 3>> cells;
@@ -114,7 +114,7 @@ TEST(ProbeNeighbours, weightsKnowFacingVisibilityAndWalls) {
     const vec3 up(0, 1, 0);
     const float near = 1.0f / 16;
     EXPECT_NEAR(neighbourWeight(1.0f, vec3(2, 0, 0), up, 1.0f, 2.0f), 0.30f * near, 1e-5f);
-    // Crushed below 0.2: behind, and in front but hardly seen.
+    // Crushed below 0.2: a probe behind, and one in front that is hardly visible.
     EXPECT_NEAR(neighbourWeight(1.0f, vec3(0, -2, 0), up, 1.0f, 2.0f), 0.05f * 0.05f * 0.05f / 0.04f * near, 1e-6f);
     EXPECT_NEAR(neighbourWeight(1.0f, vec3(0, 2, 0), up, 0.1f, 2.0f), 0.105f * 0.105f * 0.105f / 0.04f * near, 1e-5f);
     EXPECT_NEAR(neighbourWeight(0.5f, vec3(2, 0, 0), up, 1.0f, 2.0f), 0.15f * near, 1e-5f);
@@ -127,7 +127,7 @@ TEST(ProbeNeighbours, beyondTheFarthestDistanceNothingIsKnown) {
     EXPECT_EQ(neighbourVisibility(1.0f, 1.0f, 1.0f), chebyshevFloor(kRulesMeasured));
 }
 
-// At the limit of doubt the cage answers alone, at weight 0 the neighbours do, between them roots of light are mixed.
+// At the limit of doubt only the cage counts, at weight 0 only the neighbours; in between, roots of light are mixed.
 TEST(ProbeNeighbours, theAnswerIsContinuousAtTheLimitOfDoubt) {
     const vec3 cage(0.7f, 1.0f, 0.0f), neighbours = kPi * vec3(4, 9, 16);
     const vec3 alone = completedByNeighbours(cage * kDoubtful, kDoubtful, neighbours);
@@ -146,7 +146,7 @@ TEST(SurfaceGradient, theAxisIsTheNormalsLargest) {
     EXPECT_EQ(dominantAxis(vec3(0.1f, 0.9f, -0.4f)), 1);
     EXPECT_EQ(dominantAxis(vec3(0.1f, 0.2f, -0.97f)), 2);
     EXPECT_FLOAT_EQ(axisTrust(vec3(0, -1, 0)), 1.0f);
-    EXPECT_FLOAT_EQ(axisTrust(vec3(0.7f, 0.7f, 0.1f)), 0.0f);  // where axes change, none counts
+    EXPECT_FLOAT_EQ(axisTrust(vec3(0.7f, 0.7f, 0.1f)), 0.0f);  // where the largest axis changes, none is trusted
     EXPECT_NEAR(axisTrust(vec3(0.7f, -0.7f - 0.5f * kAxisLead, 0.0f)), 0.5f, 1e-4f);
 }
 
@@ -154,7 +154,7 @@ TEST(SurfaceGradient, takesWhatTheGradientPredicts) {
     // A slope of 0.1 at a root of 1, half a cell ahead: 0.05, damped by 1 / (1 + 0.1).
     const float s = 0.1f;
     EXPECT_NEAR(rootAtSurface(1.0f, 0.02f, 0.2f, 0.5f, 1.0f), 1.0f - 0.5f * s / (1.0f + s), 1e-6f);
-    // Half trusted: by the normal, by the weight of the pairs.
+    // Trusted by half: because of the normal, and of the weight of the pairs.
     EXPECT_NEAR(rootAtSurface(1.0f, 0.02f, 0.2f, 0.5f, 0.5f), 1.0f - 0.25f * s / (1.0f + s), 1e-6f);
     const float half = 0.5f * kTrustedWeight;
     EXPECT_NEAR(rootAtSurface(1.0f, 0.1f * half, half, 0.5f, 1.0f), 1.0f - 0.25f * s / (1.0f + s), 1e-6f);
@@ -168,7 +168,7 @@ TEST(SurfaceGradient, neverAddsAndNeverTakesMoreThanItsShare) {
     EXPECT_EQ(rootAtSurface(0.0f, 0.1f, 0.2f, 0.5f, 1.0f), 0.0f);
     EXPECT_EQ(rootAtSurface(1.0f, 0.0f, 0.0f, 0.5f, 1.0f), 1.0f);
     EXPECT_FLOAT_EQ(rootAtSurface(2.0f, 1e6f, 1.0f, 1.5f, 1.0f), 2.0f * (1.0f - kMaxTaken));
-    // Noise of less than a per cent is not followed: it would only ever darken. Half as much again is, by half.
+    // Differences below 1 % are taken for noise, which would only darken; at 1.5 %, half of the difference counts.
     EXPECT_EQ(rootAtSurface(1.0f, 0.009f, 1.0f, 0.5f, 1.0f), 1.0f);
     EXPECT_NEAR(rootAtSurface(1.0f, 0.015f, 1.0f, 1.0f, 1.0f), 1.0f - 0.0075f / 1.0075f, 1e-6f);
 }

@@ -34,12 +34,12 @@ TEST(PunctualLight, theSunIsTheSameEverywhere) {
     EXPECT_LT(kLightAtInfinity, 1e30f) << "Ray::far";
 }
 
-TEST(PunctualLight, atItsOwnPlaceThereIsNone) {
+TEST(PunctualLight, isZeroAtItsOwnPosition) {
     const LightSample s = pointLight({1, 2, 3}, {1, 2, 3});
     EXPECT_EQ(s.irradianceAtNormal, vec3(0.0f));
     EXPECT_EQ(s.distance, 0.0f);
     EXPECT_EQ(s.toLight, vec3(0, 1, 0));
-    // A nanometre away there is: only the place itself is left out.
+    // There is light a nanometre away: only the exact position has none.
     EXPECT_GT(pointLight({1e-9f, 0, 0}, {0, 0, 0}).irradianceAtNormal.x, 1e18f);
 }
 
@@ -60,7 +60,7 @@ TEST(PunctualLight, theConesRampIsSquared) {
     EXPECT_FLOAT_EQ(punctualConeFactor(0.6f, 0.8f, 0.4f), 0.25f);
     EXPECT_EQ(punctualConeFactor(0.4f, 0.8f, 0.4f), 0.0f);
     EXPECT_EQ(punctualConeFactor(-1.0f, 0.8f, 0.4f), 0.0f);
-    // Cones that coincide: an edge a thousandth wide.
+    // Coinciding cones: an edge of a thousandth.
     EXPECT_NEAR(punctualConeFactor(0.5005f, 0.5f, 0.5f), 0.25f, 1e-3f);
 }
 

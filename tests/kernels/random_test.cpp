@@ -5,7 +5,7 @@
 namespace probegi::kernels {
 namespace {
 
-// Values of the paper's definition, worked out apart: any change of a constant changes every picture.
+// Values computed independently from the paper's definition, since changing a constant would change every picture.
 TEST(Hash, isPcg) {
     EXPECT_EQ(hashUint(0), 129708002u);
     EXPECT_EQ(hashUint(1), 2831084092u);

@@ -5,13 +5,13 @@
 namespace probegi::kernels {
 namespace {
 
-constexpr float kUnit = 1.1920929e-7f;  // of the last place, at 1
+constexpr float kUnit = 1.1920929e-7f;  // unit in the last place, at 1
 
 TEST(RayOffset, isSomeUnitsOfTheLargestCoordinate) {
     for (const vec3 p : {vec3(20, 1, -3), vec3(1, -20, 3), vec3(0, 0, 20)})
         EXPECT_FLOAT_EQ(rayOffset(p, 0), 32 * kUnit * 20);
     EXPECT_NEAR(rayOffset({20, 0, 0}, 0), 76e-6, 1e-6);
-    // Near the origin of a large scene its corners count, by an eighth.
+    // Near the origin of a large scene, an eighth of its extent counts.
     EXPECT_FLOAT_EQ(rayOffset({0.1f, 0, 0}, 80), 32 * kUnit * 10);
     EXPECT_FLOAT_EQ(rayOffset({50, 0, 0}, 80), 32 * kUnit * 50);
 }
@@ -24,7 +24,7 @@ TEST(RayOffset, movesTheOriginAlongTheNormal) {
     EXPECT_FLOAT_EQ(moved.z, 3 - 32 * kUnit * 64);
 }
 
-// Shorter than the way, longer than where any wall is.
+// Slightly shorter than the distance to the light, but long enough to hit any wall before it.
 TEST(RayOffset, shadowRaysEndALittleBeforeTheLight) {
     for (const float distance : {1e-3f, 1.0f, 1e6f}) {
         EXPECT_NEAR(shadowRayEnd(distance) / distance, 0.9999, 1e-6);

@@ -8,7 +8,7 @@
 namespace probegi::kernels {
 namespace {
 
-// Equal steps in height, golden ratio turns around (in doubles).
+// Equal steps in height, turned by the golden ratio (in doubles).
 TEST(RaySet, fibonacciByDefinition) {
     for (const uint count : {9u, 144u, 4096u})
         for (const uint i : {0u, 1u, 4u, count - 1}) {

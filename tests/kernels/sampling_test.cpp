@@ -92,13 +92,13 @@ TEST(PowerHeuristic, weightsOfBothStrategiesAddUpToOne) {
     EXPECT_EQ(kernels::powerHeuristic(0, 0), 0);
 }
 
-// Malley's and Archimedes' maps have these densities: the moments above rest on them.
+// The densities of Malley's and Archimedes' maps, which the moments above assume.
 TEST(CosineHemisphere, density) {
     EXPECT_FLOAT_EQ(kernels::pdfCosineHemisphere(0.5f), 0.5f / kernels::kPi);
     EXPECT_EQ(kernels::pdfCosineHemisphere(-0.5f), 0.0f);
 }
 
-// The corners and the middles of the square's four triangles.
+// Corners and centres of the square's four triangles.
 TEST(Disk, mapsTheSquaresPartsToSectors) {
     const auto expectAt = [](vec2 u, float radius, float turn) {
         const vec2 d = kernels::sampleDisk(u);

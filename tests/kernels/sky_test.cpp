@@ -22,7 +22,7 @@ TEST(Sky, axesLieWhereTheImageHasThem) {
     expectUv({0, r, -r}, 0.5f, 0.25f);
     expectUv({r, -r, 0}, 0.75f, 0.75f);
     EXPECT_NEAR(std::abs(skyUv({0, 0, 1}).x - 0.5f), 0.5f, 1e-6) << "behind: the edge";
-    // Near a pole too the angle is exact to its digits.
+    // The angle is exact to float precision near a pole too.
     EXPECT_NEAR(skyUv({1e-4f, 1, 0}).y / (1e-4f / kPi), 1, 1e-5);
 }
 

@@ -39,7 +39,7 @@ TEST(SolidProbe, backsOfTwoSidesCountWhereNoWayLeadsOut) {
 }
 
 TEST(SolidProbe, aWallBetweenTwoProbesLeavesNoFreeWay) {
-    // A surface between: what one sees and what the other sees add up to the way.
+    // With a surface in between, the distances that the two see add up to the line between them.
     for (float share = 0; share <= 1; share += 0.1f) EXPECT_FALSE(freeWay(share, 1 - share, 1.0f));
     EXPECT_TRUE(freeWay(1.0f, 1.0f, 1.0f));
     EXPECT_FALSE(freeWay(1.0f, 0.75f, 1.0f));
@@ -76,7 +76,7 @@ TEST(SolidProbe, waysHaveAnEnd) {
     EXPECT_EQ(stepsBy(kNoWayOut), kNoWayOut);
 }
 
-// The lines that the documentation draws, from both sides.
+// The thresholds as documented, from both sides.
 TEST(SolidProbe, linesAreWhereTheyAreSaidToBe) {
     EXPECT_FALSE(mayBeOpen({0, 0.149f, 0u, 0u, 0u}));
     EXPECT_TRUE(mayBeOpen({0, 0.151f, 0u, 0u, 0u}));
@@ -87,7 +87,7 @@ TEST(SolidProbe, linesAreWhereTheyAreSaidToBe) {
     EXPECT_TRUE(freeWay(1.61f, 1.61f, 2));
     EXPECT_EQ(stepsBy(15u), 16u);
     EXPECT_EQ(stepsBy(16u), kNoWayOut);
-    // 12 updates open a way; it then stands 16 more without being seen again.
+    // A path opens after 12 updates, and stays open for 16 more without being found again.
     ProbeSides sides = kDoubtful;
     for (int update = 1; update <= 40; ++update) {
         sides = foundWay(sides, 2);
@@ -101,7 +101,7 @@ TEST(SolidProbe, linesAreWhereTheyAreSaidToBe) {
     }
 }
 
-// With hardly a front in sight (3 % of the rays) no way counts.
+// If hardly any front is visible (3 % of the rays), no path counts.
 TEST(SolidProbe, enclosedProbesAreSolidAtOnce) {
     const ProbeSides open{0.45f, 0.5f, 2u, 2u, 16u};
     EXPECT_FLOAT_EQ(solidShare(open, {83, 80, 0}, 100), 80.0f / 83);

@@ -33,13 +33,13 @@ TEST(Storage, halfUnpacksLikeTheStandardFormat) {
 TEST(Storage, halfPackWithoutDitherTruncatesAndRoundTrips) {
     for (uint h = 0x400; h < 0x7c00; ++h) {
         EXPECT_EQ(packHalfDithered(unpackHalf(h), 0), h);
-        EXPECT_EQ(packHalfDithered(unpackHalf(h), 8191), h);  // what is exact stays exact
+        EXPECT_EQ(packHalfDithered(unpackHalf(h), 8191), h);  // exact values stay exact
     }
     EXPECT_EQ(packHalfDithered(0.0f, 8191), 0u);
     EXPECT_EQ(packHalfDithered(1e9f, 8191), 0x7bffu);  // saturates, never infinite
 }
 
-// The point of the dither: the expected stored value is the value.
+// The purpose of the dither: the expectation of the stored value is the value itself.
 TEST(Storage, ditheredRoundingIsUnbiased) {
     for (float x : {0.00123f, 0.3337f, 0.9999f, 3.7f, 12.345f}) {
         double half = 0;

@@ -28,8 +28,8 @@ TEST(Surface, interpolationHasTheCornersWeights) {
     EXPECT_EQ(interpolate(vec4(4, 0, 8, 1), vec4(8, 4, 0, 1), vec4(16, 2, 0, 1), weights), vec4(11, 2, 2, 1));
 }
 
-// Along the tangent u grows and v stays; the bitangent, cross(normal, tangent) w, points where v falls (up in the
-// image).
+// Along the tangent u grows and v is constant; the bitangent, cross(normal, tangent) w, points towards smaller v (up in
+// the image).
 TEST(Surface, tangentsFollowTheTexture) {
     struct Case {
         vec2 uvEdge1, uvEdge2;
@@ -100,7 +100,7 @@ TEST(Surface, normalsTurnToTheRaysSide) {
     EXPECT_EQ(front.shading, n.shading);
     EXPECT_EQ(back.geometric, -kZ);
     EXPECT_EQ(back.shading, -n.shading);
-    // In front of the triangle, yet behind the shading normal: bent to just above grazing.
+    // In front of the triangle but behind the shading normal, which is bent to just above grazing.
     const vec3 direction = normalize(vec3(0, 0.9f, -0.1f));
     const vec3 bent = facingNormals(n, direction).shading;
     EXPECT_GT(dot(bent, -direction), 0.9f * kLeastCosine);

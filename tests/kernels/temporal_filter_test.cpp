@@ -44,7 +44,7 @@ TEST(TemporalFilter, theFirstSightIsTheAverage) {
     EXPECT_FLOAT_EQ(f.bounced, 1.0f);
 }
 
-// Closed form of a running average of a step: what is left after k updates of window w is (1 - 1/w)^k.
+// Closed form of a running average of a step: after k updates with window w, (1 - 1/w)^k of it remains.
 TEST(TemporalFilter, averagesLagLikeTheProbe) {
     ProbeFilter f = settled(1, 0, 20);
     for (int k = 0; k < 30; ++k) advanceFilter(f, evenSight(2, 0, 0.5f));
@@ -69,7 +69,7 @@ TEST(TemporalFilter, changeIsARatioAtEveryBrightness) {
     }
 }
 
-// A probe in the dark beside a bright one does not mind a flicker of nothing.
+// A dark probe beside a bright one ignores flicker that is negligible beside its neighbour's light.
 TEST(TemporalFilter, darkProbesAreJudgedByTheirBrightestNeighbour) {
     const ProbeLag dark = probeLag(evenSight(0.002f, 0, 0.5f), settled(0.001f, 0, 50));
     LagAround around = noLag();
@@ -88,14 +88,14 @@ TEST(TemporalFilter, bouncedNoiseOfNeighboursCancels) {
     EXPECT_NEAR(filterLag(around, 0.0f, 50.0f, false), 0.0f, 1e-6f);
 }
 
-// Bounced light that lags by a per cent of the light will lag by three when all bounces have passed it on.
+// Bounced light that lags by 1 % of the light will lag by 3 % after all later bounces.
 TEST(TemporalFilter, bouncedLagCountsWithItsLaterBounces) {
     const ProbeLag lag = probeLag(evenSight(3, 0.9f, 0.5f), settled(3, 1, 50));
     EXPECT_NEAR(filterLag(alone(lag), 0.0f, 50.0f, false), kBounceLag * 0.1f / 4.0f, 1e-4f);
 }
 
-// An average over a window of w updates keeps noise / sqrt(2 w - 1): so much of bounced light's change is none.
-TEST(TemporalFilter, bouncedNoiseIsNoLag) {
+// An average over a window of w updates keeps noise / sqrt(2 w - 1): so much of a change of bounced light is ignored.
+TEST(TemporalFilter, noiseOfBouncedLightIsNotLag) {
     LagAround around = noLag();
     around.level = 1.0f;
     const float left = 0.2f / std::sqrt(2.0f * 50.0f - 1.0f);
@@ -110,14 +110,14 @@ TEST(TemporalFilter, bouncedNoiseIsNoLag) {
     EXPECT_FLOAT_EQ(filterLag(around, 0.2f, 50.0f, false), 0.3f);
 }
 
-// Windows grow by a share at first, while bounces come in, and by half an update later.
+// Windows at first grow by a share of their length, while bounces arrive, and later by half an update.
 TEST(TemporalFilter, youngWindowsGrowSlowly) {
     EXPECT_FLOAT_EQ(nextWindow(2, 0.4f, 0.0f, 200), 2.0f + 2.0f * kYoungGrowth);
     EXPECT_FLOAT_EQ(nextWindow(10, 0.4f, 0.0f, 200), 10.5f);
     EXPECT_FLOAT_EQ(nextVisibilityWindow(2, 0.0f, 200), 2.5f);
 }
 
-// Lag is as large as the noise that an average of that window has left: lag^2 = noise^2 / (2 window).
+// The lag equals the noise that remains in an average over that window: lag^2 = noise^2 / (2 window).
 TEST(TemporalFilter, windowsBalanceLagAndNoise) {
     EXPECT_FLOAT_EQ(nextWindow(100, 0.4f, 0.1f, 200), 8.0f);
     EXPECT_FLOAT_EQ(nextWindow(100, 0.4f, 0.9f, 200), 1.0f);
@@ -129,7 +129,7 @@ TEST(TemporalFilter, windowsBalanceLagAndNoise) {
     EXPECT_FLOAT_EQ(keptBy(0.0f), 0.0f);
 }
 
-// The difference between two independent values of variance v, one of them averaged over a window.
+// From the difference between two independent values of one variance, one of them averaged over a window.
 TEST(TemporalFilter, noiseIsThatOfOneUpdate) {
     float noise = 0.3f;
     const float window = 5.0f, variance = 0.04f;
@@ -151,7 +151,7 @@ TEST(TemporalFilter, ownRaysCountBeyondTheirNoise) {
     EXPECT_EQ(lagBeyondNoise(0.5f, 0.0f), 0.5f);
 }
 
-// Dithered halves: the mean of many packings is the value, at every level.
+// By dithered rounding to halves, the mean of many packed values is the value, at every level.
 TEST(TemporalFilter, packingKeepsTheMean) {
     for (const float level : {1e-6f, 1e-2f, 1.0f, 1e4f}) {
         ProbeFilter f = settled(level, 0.3f * level, 7.5f);

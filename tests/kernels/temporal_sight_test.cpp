@@ -1,4 +1,4 @@
-// What fixed rays tell (kernels/blend/temporal_filter.h): lobes, their sums, the lag that follows from two of them.
+// Results of the fixed rays (kernels/blend/temporal_filter.h): lobes, their sums, and the lag between two of them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ TEST(ProbeSight, lobesAreOctantsAndPairsOfThem) {
     EXPECT_TRUE(*lobes.begin() == 0 && *lobes.rbegin() == 7 && *pairs.begin() == 0 && *pairs.rbegin() == 3);
 }
 
-// Two rays in one lobe, one in each other: means by lobe, by pair, of all.
+// Two rays in one lobe, one in each of the others: means by lobe, by pair, and of all.
 TEST(ProbeSight, isTheMeanOfEachLobe) {
     SightSum sum = noSight();
     for (int i = 0; i < 8; ++i) addToSight(sum, octant(i), float(i), 10.0f * float(i), 0.5f * float(i), 4);
@@ -40,7 +40,7 @@ TEST(ProbeSight, isTheMeanOfEachLobe) {
     EXPECT_FLOAT_EQ(sight.distance[pair], distance / rays / 4);
 }
 
-TEST(ProbeSight, whatIsNoLightIsNone) {
+TEST(ProbeSight, invalidLightCountsAsNone) {
     SightSum sum = noSight();
     addToSight(sum, octant(0), std::nanf(""), -1, std::nanf(""), 4);
     const ProbeSight sight = sightOf(sum);
@@ -51,7 +51,7 @@ TEST(ProbeSight, whatIsNoLightIsNone) {
     EXPECT_EQ(sightOf(noSight()).distance[2], 0.0f);
 }
 
-// Rays that turn: only the mean of all of them is the same from update to update.
+// For rays that turn, only the mean of all is comparable from update to update.
 TEST(ProbeSight, ownRaysCountAsOneMean) {
     SightSum sum = noSight();
     addOwnRayToSight(sum, vec3(2.0f), 1);
@@ -101,13 +101,13 @@ TEST(ProbeLag, ofDistancesIsTheLargestRatio) {
     EXPECT_EQ(probeLag(now, known(1, -1, 0.5f)).distance, 0.0f) << "nothing to compare with";
 }
 
-TEST(ProbeLag, probesInWallsAreNotHeard) {
+TEST(ProbeLag, probesInWallsAreIgnored) {
     const ProbeLag lag{1, 2, 3, 4}, heard = lagHeard(lag, 0.29f), unheard = lagHeard(lag, 0.31f);
     EXPECT_TRUE(heard.direct == 1 && heard.bounced == 2 && heard.level == 3 && heard.distance == 4);
     EXPECT_TRUE(unheard.direct == 0 && unheard.bounced == 0 && unheard.level == 0 && unheard.distance == 0);
 }
 
-// Half of a neighbour's lag is one's own, of light and of distances.
+// A neighbour's lag counts by half, for light and for distances.
 TEST(ProbeLag, neighboursCountHalf) {
     const ProbeLag lag{0.4f, 0.1f, 2, 0.6f};
     LagAround own = noLag(), neighbour = noLag();
@@ -123,7 +123,7 @@ TEST(ProbeLag, neighboursCountHalf) {
     EXPECT_FLOAT_EQ(own.level, 6);
 }
 
-// Windows of light and of distances differ: each average moves at its own rate.
+// Light and distances have different windows, so their averages move at different rates.
 TEST(ProbeFilterTest, averagesMoveAtTheirOwnRates) {
     ProbeFilter f = known(1, 1, 0.2f);
     f.window = 4;
@@ -132,13 +132,13 @@ TEST(ProbeFilterTest, averagesMoveAtTheirOwnRates) {
     EXPECT_FLOAT_EQ(f.direct[6], 2);
     EXPECT_FLOAT_EQ(f.bounced, 3);
     EXPECT_FLOAT_EQ(f.distance[3], 0.25f);
-    f.window = 0.5f;  // below 1: nothing old is kept
+    f.window = 0.5f;  // below 1: nothing of the old is kept
     advanceFilter(f, even(7, 8, 0.7f));
     EXPECT_FLOAT_EQ(f.direct[0], 7);
     EXPECT_FLOAT_EQ(f.bounced, 8);
 }
 
-// Every number comes back from its place, within a step of a half float.
+// Every number is unpacked from its own place, to a step of a half float.
 TEST(ProbeFilterTest, packingKeepsEachNumberInItsPlace) {
     ProbeFilter f{};
     for (int i = 0; i < 8; ++i) f.direct[i] = 1 + float(i);
@@ -185,7 +185,7 @@ TEST(TexelChangeTest, joinsPartsAndSumsChannels) {
     EXPECT_FLOAT_EQ(whole.before, before + 3);
     EXPECT_FLOAT_EQ(whole.now, 9 + 2);
     EXPECT_FLOAT_EQ(whole.square, (9 - before) * (9 - before) + 1);
-    // Over the mean square of the larger level.
+    // Relative to the mean square of the larger level.
     EXPECT_FLOAT_EQ(relativeChange(whole, 2), whole.square / 2 / (5.5f * 5.5f));
 }
 

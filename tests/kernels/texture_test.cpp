@@ -82,7 +82,7 @@ TEST(Texture, mipLevelsHalveDownToOneTexel) {
     EXPECT_EQ(mipOffset(8, 4, 4), 4 * 2 + 2 * 1 + 1 * 1);
 }
 
-// A cone's circle of width spread * distance, on a tilted surface an ellipse that is 1 / cosine as long.
+// A cone's circle of width spread * distance becomes an ellipse 1 / cosine as long on a tilted surface.
 TEST(Texture, footprintsAreTheMeanOfTheEllipsesAxes) {
     EXPECT_FLOAT_EQ(coneFootprint(0.1f, 5, 1), 0.5f);
     for (const float cosine : {0.25f, -0.25f}) EXPECT_FLOAT_EQ(coneFootprint(0.1f, 5, cosine), 1.0f);

@@ -21,9 +21,9 @@ TEST(FilmicCurve, leavesTheDarkAloneAndBleachesTheBright) {
     EXPECT_EQ(filmicCurve({0.6f, 0.2f, 0.1f}), vec3(0.6f, 0.2f, 0.1f));
     const vec3 v = filmicCurve({2, 1, 0.5f});
     EXPECT_NEAR(v.x, 0.987921, 1e-5);  // the shoulder of 2
-    EXPECT_NEAR(v.y, 0.559066, 1e-5);  // half of it, and 13 % white
+    EXPECT_NEAR(v.y, 0.559066, 1e-5);  // half of that, bleached by 13 %
     EXPECT_NEAR(v.z, 0.344638, 1e-5);
-    for (int peak = 0; peak < 3; ++peak) {  // whichever channel is the largest
+    for (int peak = 0; peak < 3; ++peak) {  // for each channel as the largest
         vec3 one(0.25f);
         one[peak] = 4;
         EXPECT_NEAR(filmicCurve(one)[peak], filmicShoulder(4), 1e-6);
@@ -46,7 +46,7 @@ TEST(ToneMap, exposesThenClipsThenEncodes) {
     EXPECT_EQ(toneMap({-1, std::nanf(""), 0}, 1, true), vec3(0.0f));
 }
 
-// Bayer's matrix: its first rows as printed, each level once, the same every 8 pixels.
+// Bayer's matrix: its first rows as published, each level once, repeating every 8 pixels.
 TEST(DitherThreshold, isBayersMatrix) {
     const int rows[2][8] = {{0, 32, 8, 40, 2, 34, 10, 42}, {48, 16, 56, 24, 50, 18, 58, 26}};
     for (int y = 0; y < 2; ++y)

@@ -7,7 +7,7 @@
 namespace probegi::kernels {
 namespace {
 
-// The right triangle (0, 0) (2, 0) (0, 4) in the plane z = 5, with its axes turned so that z is `axis`.
+// The right triangle (0, 0) (2, 0) (0, 4) in the plane z = 5, with axes rotated so that z becomes `axis`.
 struct Turned {
     int axis;
 
@@ -30,7 +30,7 @@ TEST(TriangleHit, distanceAndWeightsFromBothSides) {
         EXPECT_NEAR(hit.distance, 4, 1e-6);
         EXPECT_NEAR(hit.barycentric.x, 0.25, 1e-6);
         EXPECT_NEAR(hit.barycentric.y, 0.5, 1e-6);
-        // Askew, from the other side, and in lengths of a direction that is no unit vector.
+        // Oblique, from the other side, and with a direction that is not a unit vector, which scales the distance.
         ASSERT_TRUE(turned.hits({0.5f + 1, 1 - 2, 5 + 4}, {-0.5f, 1, -2}, 0, 1e30f, hit));
         EXPECT_NEAR(hit.distance, 2, 1e-6);
         EXPECT_NEAR(hit.barycentric.x, 0.25, 1e-6);
@@ -59,7 +59,7 @@ TEST(TriangleHit, nearAndFarAreIncluded) {
     EXPECT_EQ(hit.distance, -7) << "set only by a hit";
 }
 
-TEST(TriangleHit, neitherFlatTrianglesNorTheirPlanesAreHit) {
+TEST(TriangleHit, degenerateTrianglesAndRaysInTheirPlaneMiss) {
     const BvhRay along = makeBvhRay({-1, 1, 5}, {1, 0, 0}), down = makeBvhRay({1, 0, 0}, {0, 0, 1});
     TriangleHit hit;
     EXPECT_FALSE(intersectTriangle(along, {0, 0, 5}, {2, 0, 5}, {0, 4, 5}, 0, 1e30f, hit));

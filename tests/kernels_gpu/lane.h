@@ -9,19 +9,19 @@
 
 namespace probegi::kernels {
 
-/// One value that a lane gave, and how closely the GPU must agree.
+/// One result of a lane, and how closely the GPU must agree.
 struct Expected {
     std::uint32_t bits = 0;
     float tolerance = 0;
     bool exact = false;  ///< an integer: bit for bit
 };
 
-/// The C++ side of shaders/lane.h: reads the same inputs and keeps what the GPU should have written.
+/// The C++ side of shaders/lane.h: reads the same inputs and keeps the results expected from the GPU.
 struct Lane {
     std::span<const std::uint32_t> inputs;
     std::vector<Expected> outputs = {};
     std::size_t nextInput = 0;
-    bool ranOut = false;  ///< took more inputs than there are
+    bool ranOut = false;  ///< whether it took more inputs than there are
 };
 
 inline uint takeBits(Lane& lane) {

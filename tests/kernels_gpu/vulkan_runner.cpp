@@ -8,7 +8,7 @@
 namespace probegi::test {
 namespace {
 
-/// A storage buffer in memory that the host sees.
+/// A storage buffer in host-visible memory.
 struct HostBuffer {
     vk::raii::Buffer buffer;
     vk::raii::DeviceMemory memory;

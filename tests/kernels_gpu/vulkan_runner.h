@@ -10,10 +10,10 @@
 
 namespace probegi::test {
 
-/// Dispatches one compute shader at a time on the first Vulkan device (software Vulkan on a machine without a GPU).
+/// Dispatches one compute shader at a time on the first Vulkan device, which may be software Vulkan.
 class VulkanRunner {
 public:
-    /// Errors: unsupported, when there is no usable Vulkan device.
+    /// Errors: unsupported (no usable Vulkan device).
     static Result<VulkanRunner> create();
     VulkanRunner(VulkanRunner&&) noexcept;
     VulkanRunner& operator=(VulkanRunner&&) noexcept;
@@ -22,7 +22,7 @@ public:
     const std::string& deviceName() const noexcept;
 
     /// Runs `groups` work groups with storage buffers `inputs` (binding 0) and `outputs` (binding 1, read and written)
-    /// and push constants. Errors: unsupported (the driver refused).
+    /// and push constants. Errors: unsupported (the driver failed).
     Result<void> run(std::span<const std::uint32_t> spirv, std::span<const std::uint32_t> inputs,
                      std::span<std::uint32_t> outputs, std::span<const std::uint32_t> pushConstants, int groups) const;
 

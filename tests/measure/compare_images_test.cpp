@@ -65,8 +65,8 @@ TEST(Compare, relmseIsLinearAndUnclipped) {
     EXPECT_NEAR(result->difference.relmse, 4 / 16.01, 1e-6);
 }
 
-// A picture of which every pixel has 65 % of the light: the ratios say so, however dark it is; relMSE with its fixed
-// constant says so only where it is bright, with one that follows the picture everywhere.
+// A picture with 65 % of the light in every pixel: the ratios show it however dark the picture is; relMSE shows it only
+// in bright pictures with its fixed constant, and always with a constant that scales with the picture.
 TEST(Compare, aFactorOnTheLightIsItsRatio) {
     for (const float brightness : {0.02f, 1.0f, 50.0f}) {
         HdrImage reference = gradient(96, 55);
@@ -93,8 +93,8 @@ TEST(Compare, scaledRelmseByHand) {
     EXPECT_NEAR(result->difference.scaledRelmse, 0.5 * (1 / 4.01 + 0.25 / 0.01), 1e-6);
 }
 
-// Eight blocks abreast and five one above the other: a room that fills three of the forty and is 35 % too dark moves
-// the 5th percentile, and hardly the mean where it is dim.
+// Eight by five blocks: a dim room that fills three of the forty and is 35 % too dark changes the 5th percentile, but
+// hardly the mean.
 TEST(Compare, aDarkRoomShowsInThePercentiles) {
     HdrImage reference(80, 50, glm::vec3(1));
     for (int y = 0; y < 10; ++y)

@@ -28,7 +28,7 @@ TEST(FlipFilters, contrastFiltersKeepConstants) {
 }
 
 TEST(FlipFilters, theEyeIsSharperForLightThanForColour) {
-    // A single lit pixel: what stays at its place is the filter's middle tap.
+    // For a single lit pixel, the result at its place is the filter's middle tap.
     Plane impulse(61, 61);
     impulse.row(30)[30] = 1;
     const ContrastFilters filters = contrastFilters(kPixelsPerDegree);
@@ -57,7 +57,7 @@ TEST(FlipFilters, detectorsIgnoreConstantsAndAreNormalised) {
 }
 
 TEST(FlipFilters, aUnitStepIsAnEdgeOfStrengthOne) {
-    // The step falls between two pixels; the pixel beside it sees all but its own (zero) tap of one sign.
+    // The step is between two pixels; the pixel beside it gets all taps of one sign except its own, which is zero.
     Plane step(40, 40);
     for (int y = 0; y < 40; ++y)
         for (int x = 20; x < 40; ++x) step.row(y)[x] = 1;
@@ -103,7 +103,7 @@ TEST(Flip, missingLineIsWorseThanAFainterOne) {
 }
 
 TEST(Flip, fineCheckersBlurIntoGrey) {
-    // Linear 0.3 and 0.7 by turns are linear 0.5 to an eye at this distance, though the rmse is large.
+    // Alternating linear 0.3 and 0.7 look like linear 0.5 at this distance, though the RMSE is large.
     HdrImage checkers(48, 48);
     for (int y = 0; y < 48; ++y)
         for (int x = 0; x < 48; ++x) checkers.at(x, y) = colour::encodeSrgb(glm::vec3((x + y) % 2 ? 0.3f : 0.7f));

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kWidth = 64, kHeight = 32;  // tiles of 8 x 8 pixels
 
-/// A room whose left half is dark and whose right half is lit, and a reference that knows it to a hundredth.
+/// A room with a dark left and a lit right half, and a reference with an error of a hundredth.
 struct Pictures {
     HdrImage truth{kWidth, kHeight, glm::vec3(0.5f)};
     HdrImage error{kWidth, kHeight, glm::vec3(0.0002f)};
@@ -79,7 +79,7 @@ TEST(LeakMap, NoiseIsNoLeak) {
     EXPECT_EQ(pictures.map().ratio.at(12, 12).x, 1);
 }
 
-TEST(LeakMap, BlackTruthHasAnEnd) {
+TEST(LeakMap, RatiosToBlackAreLimited) {
     Pictures pictures;
     pictures.truth = pictures.error = HdrImage(kWidth, kHeight);
     const LeakMap map = pictures.map();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kPi = 3.14159265f;
 
-/// 12 x 2 x 2 probes a metre apart; the first six see `left`, the others `right`, from all sides.
+/// 12 x 2 x 2 probes a metre apart; the first six along x see `left`, the others `right`, from all sides.
 Field halves(glm::vec3 left, glm::vec3 right) {
     FieldDesc desc;
     desc.volumes = {{glm::vec3(0), glm::vec3(1), {12, 2, 2}}};

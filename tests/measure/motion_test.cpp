@@ -10,7 +10,7 @@ namespace {
 using Light = std::vector<double>;
 
 TEST(Flicker, isTheStandardDeviationOverTheMean) {
-    // One point stands still, one goes to and fro by a half, one by a tenth: 0, 0.5 and 0.1.
+    // One point does not change, one alternates by a half, one by a tenth: 0, 0.5 and 0.1.
     const std::vector<Light> updates{{2, 1.5, 0.9}, {2, 0.5, 1.1}, {2, 1.5, 0.9}, {2, 0.5, 1.1}};
     const auto flicker = measureFlicker(updates);
     ASSERT_TRUE(flicker);
@@ -40,7 +40,8 @@ TEST(ShareLeft, fromStartToGoalAndBeyond) {
     }
 }
 
-// Both change by half of their light: the dark one that has arrived counts as much as the bright one that has not.
+// Both change by half of their light: the dark point, which has arrived, counts as much as the bright one, which has
+// not.
 TEST(ShareLeft, everyPointCountsByItsOwnLight) {
     EXPECT_NEAR(*shareLeft(Light{0.05, 2}, Light{0.1, 2}, Light{0.05, 1}), 0.5, 1e-12);
 }

@@ -33,7 +33,7 @@ TEST(NoiseFloor, relmseIsTheVariance) {
     EXPECT_EQ(again->difference.relmse, floor->difference.relmse) << "one seed, one result";
 }
 
-// Light is never negative: half of the noise on black is cut away.
+// Light is never negative: half of the noise on black is clipped.
 TEST(NoiseFloor, lightIsNotNegative) {
     const auto floor = noiseFloor(HdrImage(200, 150), HdrImage(200, 150, glm::vec3(0.1f)), 3);
     ASSERT_TRUE(floor);

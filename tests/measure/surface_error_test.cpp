@@ -10,7 +10,7 @@ namespace probegi {
 namespace {
 
 TEST(SurfaceError, byHand) {
-    // The mean truth is 2; the last point, below a hundredth of it, counts for nothing, however wrong.
+    // The mean truth is 2; the last point is below a hundredth of it and is ignored, however wrong.
     SurfaceTruth truth{{}, {1, 3, 3.99, 0.01}, {0, 0, 0, 0}};
     const auto error = compareAtSurfaces(std::vector<double>{1.5, 3, 3.99, 7}, truth);
     ASSERT_TRUE(error);
@@ -40,7 +40,7 @@ struct Furnace {
     ScenePose pose = poseAt(scene);
     std::unique_ptr<Tracer> tracer = std::move(*makeEmbreeTracer(context, scene, pose));
 
-    /// On one of the six faces, its normal towards the middle.
+    /// Expects a point on one of the six faces with its normal towards the middle.
     void expectInside(const FieldQuery& q) const {
         const glm::vec3 size = pose.bounds.size();
         EXPECT_NEAR(glm::length(q.normal), 1, 1e-4f);

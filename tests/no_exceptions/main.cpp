@@ -1,4 +1,4 @@
-// Without arguments: a field through Results that are assigned. With one: value() where there is none.
+// Without arguments: makes a field, assigning Results. With one: calls value() of an error.
 #include <vector>
 
 #include "probegi/context.h"

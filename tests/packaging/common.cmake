@@ -7,7 +7,7 @@ function(run)
     endif()
     set(output "${output}" PARENT_SCOPE)
 endfunction()
-# Lists come with bars between their entries.
+# Lists are passed with | between the entries.
 string(REPLACE "|" ";" OPTIONS "${OPTIONS}")
 string(REPLACE "|" ";" EXAMPLES "${EXAMPLES}")
 file(REMOVE_RECURSE ${WORK})

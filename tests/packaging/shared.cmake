@@ -1,5 +1,5 @@
 # cmake -DPROBEGI=folder -DWORK=folder -DOPTIONS=-Da=b|... -P shared.cmake
-# Builds everything over one shared library and looks at what it shows.
+# Builds everything with one shared library and checks the symbols that it exports.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 run(${CMAKE_COMMAND} -S ${PROBEGI} -B ${WORK} -G Ninja -DBUILD_SHARED_LIBS=ON -DPROBEGI_TESTS=OFF -DPROBEGI_BENCH=OFF
     ${OPTIONS})

@@ -1,5 +1,5 @@
 # cmake -DPROBEGI=folder -DWORK=folder -DOPTIONS=-Da=b|... -P tool.cmake
-# Builds the tool without the Vulkan backend, and asks it for what it has not.
+# Builds the tool without the Vulkan backend, and tries to use it.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 run(${CMAKE_COMMAND} -S ${PROBEGI} -B ${WORK} -G Ninja -DPROBEGI_VULKAN=OFF -DPROBEGI_TESTS=OFF -DPROBEGI_BENCH=OFF ${OPTIONS})
 run(${CMAKE_COMMAND} --build ${WORK} --target probegi_tool)

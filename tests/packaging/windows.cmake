@@ -1,12 +1,12 @@
 # cmake -DPROBEGI=folder -DWORK=folder -DOPTIONS=-Da=b|... -DCOMPILER=mingw's -DWINE=program -DNATIVE=program
 # -DGLM=include folder -DHIGHWAY=include folder -P windows.cmake
-# Cross-compiles engine/ for Windows and compares what its example prints under Wine with what the native one prints.
+# Cross-compiles engine/ for Windows and compares its example's output under Wine with the native one's.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 if(NOT COMPILER OR NOT WINE)
     message(FATAL_ERROR "needs g++-mingw-w64-x86-64-posix and wine64: scripts/setup.sh test")
 endif()
 
-# Libraries of headers alone are the same everywhere: a folder with them and nothing else of this machine's.
+# Header-only libraries are portable: links to them in a folder with nothing else of this machine.
 file(MAKE_DIRECTORY ${WORK}/headers)
 file(CREATE_LINK ${GLM}/glm ${WORK}/headers/glm SYMBOLIC)
 file(CREATE_LINK ${HIGHWAY}/hwy ${WORK}/headers/hwy SYMBOLIC)
@@ -23,7 +23,7 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/engine -B ${WORK}/build -G Nin
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${CMAKE_COMMAND} -E chdir ${WORK} ${NATIVE})
 set(native "${output}")
-# Wine's own messages go to its log; the folder of its registry is ours.
+# Silences Wine's own messages, and keeps its registry in our folder.
 set(ENV{WINEPREFIX} ${WORK}/wine)
 set(ENV{WINEDEBUG} -all)
 run(${CMAKE_COMMAND} -E chdir ${WORK} ${WINE} wineboot --init)

@@ -1,4 +1,4 @@
-// The guide as a density: whatever it holds, it must integrate to one and be what sample() does.
+// The guide as a density: whatever its contents, it must integrate to one and be the density of sample().
 #include "reference/path_guide.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-/// Three boxes of unlike shape and strength around the origin; the other lanes hold the first box with no strength.
+/// Three boxes of different shape and strength around the origin; the other lanes have the first box with strength 0.
 PathGuide::Block threeBoxes() {
     const glm::vec3 lower[3] = {{2, -1, -1}, {-1, 2, 0}, {-3, -0.5f, -2}};
     const glm::vec3 upper[3] = {{2.5f, 1, 0.5f}, {1, 2.2f, 1.5f}, {-2, 0.5f, 2}};
@@ -62,7 +62,7 @@ TEST(PathGuide, samplesFollowTheDensity) {
     ASSERT_GT(mixture.share, 0);
     const auto g = [&](glm::vec3 d) {
         const double p = double(PathGuide::pdf(mixture, position, d));
-        return p * (1.5 + double(d.x) + 2 * double(d.y) * double(d.z));  // vanishes where the density does
+        return p * (1.5 + double(d.x) + 2 * double(d.y) * double(d.z));  // 0 where the density is 0
     };
     Random random(3, 1);
     double expected = 0, found = 0;
@@ -125,7 +125,7 @@ void expectBlocksAgree(const ReferencePicture& a, const ReferencePicture& b) {
                 }
             if (std::abs(difference) > 3 * std::sqrt(variance)) ++apart;
         }
-    // Of 40 independent blocks 0.11 are expected beyond 3 standard errors; two are beyond it once in 200 runs.
+    // Of 40 independent blocks, 0.11 are expected beyond 3 standard errors, and two or more in one of 200 runs.
     EXPECT_LE(apart, 1);
 }
 
@@ -181,7 +181,7 @@ TEST(Guided, sameBitsForOneAndTwoThreads) {
     EXPECT_EQ(pictures[0], pictures[1]);
 }
 
-/// A field that was never updated, and one whose grid is somewhere else, are bad guides and no danger.
+/// A field that was never updated, and one whose grid is elsewhere, are bad guides but change no mean.
 TEST(Guided, aBlackOrMisplacedFieldIsHarmless) {
     const ReferenceWorld world(std::move(*makeBuiltinScene("two-rooms")), 2);
     const VolumeDesc placed = *placeVolume(world.pose.bounds, {.targetProbes = 512});
@@ -201,7 +201,7 @@ TEST(Guided, aBlackOrMisplacedFieldIsHarmless) {
     }
 }
 
-/// A field of other light expects it in the wrong places: bright where it is dark and the other way round.
+/// A field of different light expects it in the wrong places: bright where it is dark, and vice versa.
 TEST(Guided, aFieldOfOtherLightIsHarmless) {
     const ReferenceWorld world(std::move(*makeBuiltinScene("house")), 2);
     Lighting other;

@@ -56,7 +56,7 @@ double meanLevel(const HdrImage& image) {
     return sum / double(3 * image.pixels.size());
 }
 
-/// Standard error of meanLevel, from the pixels' own.
+/// Standard error of meanLevel, from those of the pixels.
 double meanLevelError(const HdrImage& error) {
     double square = 0;
     for (const glm::vec3& p : error.pixels) square += std::pow(double(p.x + p.y + p.z) / 3, 2);
@@ -94,7 +94,7 @@ TEST(Reference, layersAddUpAndNothingIsNegative) {
     const Picture& p = result->picture;
     EXPECT_EQ(result->samplesPerPixel, 16);
     for (std::size_t i = 0; i < p.color.pixels.size(); ++i) {
-        // What is left over is sky: the share of the pixel that shows it, in the sky's colour.
+        // The rest is sky: the share of the pixel that shows it, in the sky's colour.
         const glm::vec3 rest = p.color.pixels[i] - p.direct.pixels[i] - p.indirect.pixels[i];
         const float share = rest.x / world.scene.sky.radiance.x;
         EXPECT_NEAR(share * 16, std::round(share * 16), 1e-2f);
@@ -108,12 +108,12 @@ TEST(Reference, layersAddUpAndNothingIsNegative) {
     }
 }
 
-/// Lambert everywhere: what is indirect is the albedo over pi times the irradiance behind it, path by path.
+/// With Lambert surfaces only, indirect light is albedo / pi times the irradiance layer, path by path.
 TEST(Reference, irradianceIsWhatLiesBehindIndirect) {
     const ReferenceWorld world(busyRoom());
     ReferenceDesc desc = smallPicture(8);
     desc.picture.diffuseOnly = true;
-    desc.picture.camera = lookAt({0, 1.5f, 0}, {-0.5f, 0, 0.5f}, 0.2f);  // the floor alone
+    desc.picture.camera = lookAt({0, 1.5f, 0}, {-0.5f, 0, 0.5f}, 0.2f);  // the floor only
     const auto result = world.pathTracer().render(desc);
     for (std::size_t i = 0; i < result->picture.color.pixels.size(); ++i) {
         const glm::vec3 albedo = result->picture.albedo.pixels[i];
@@ -124,7 +124,7 @@ TEST(Reference, irradianceIsWhatLiesBehindIndirect) {
     }
 }
 
-/// A picture's irradiance at a point is what irradiance() answers there.
+/// A picture's irradiance at a point equals that of irradiance().
 TEST(Reference, pictureAndPointQueriesAgree) {
     const ReferenceWorld world(busyRoom());
     ReferenceDesc desc = smallPicture(4000);
@@ -135,7 +135,7 @@ TEST(Reference, pictureAndPointQueriesAgree) {
         EXPECT_NEAR(inPicture[c], atPoint->front().mean[c], 5 * atPoint->front().standardError[c]);
 }
 
-/// Lamp, sky and glossy metal: all ways of estimating find the same light.
+/// Lamp, sky and glossy metal: all ways of sampling find the same light.
 TEST(Reference, everyStrategyHasTheSameMean) {
     const ReferenceWorld world(busyRoom());
     const Transport transport = world.transport();
@@ -155,7 +155,7 @@ TEST(Reference, everyStrategyHasTheSameMean) {
     }
 }
 
-/// The triangles of Embree and the equations of the analytic tracer are the same room.
+/// The same room as triangles in Embree and as equations in the analytic tracer.
 TEST(Reference, doesNotDependOnTheTracer) {
     Scene scene;
     const int white = addMaterial(scene, glm::vec3(0.6f)), lamp = addMaterial(scene, glm::vec3(0.1f), glm::vec3(5.0f));
@@ -174,7 +174,7 @@ TEST(Reference, doesNotDependOnTheTracer) {
     }
 }
 
-/// (mean - truth) / standardError over many seeds has variance 1: the error that is written down is the real one.
+/// (mean - truth) / standardError over many seeds has variance 1, so the reported error is right.
 TEST(Reference, standardErrorIsHonest) {
     Scene scene;
     addRoom(scene, {-1, -1, -1}, {1, 1, 1}, addMaterial(scene, glm::vec3(0.5f), glm::vec3(1.0f)));
@@ -188,12 +188,12 @@ TEST(Reference, standardErrorIsHonest) {
         sum += z;
         squares += z * z;
     }
-    // The mean leans to the negative a little: where a mean of skewed samples is low, so is its error.
+    // The mean is slightly negative: if the mean of skewed samples is low, so is its error.
     EXPECT_NEAR(sum / kSeeds, 0, 4 / std::sqrt(double(kSeeds)));
     EXPECT_NEAR(squares / kSeeds, 1, 4 * std::sqrt(2.0 / kSeeds));
 }
 
-/// One reflection is direct light alone, and more bounces only add.
+/// One reflection is direct light only, and more bounces only add to it.
 TEST(Reference, maxBouncesCountsReflections) {
     const ReferenceWorld world(busyRoom());
     ReferenceDesc desc = smallPicture(32);
@@ -260,7 +260,7 @@ TEST(Reference, emptySceneShowsTheSky) {
     EXPECT_EQ(result->picture.depth.at(3, 3), glm::vec3(0.0f));
 }
 
-/// 2 cm walls far from the origin, sunlight outside, corners everywhere: nothing may come through.
+/// 2 cm walls far from the origin, sunlight outside, many corners: no light may come through.
 TEST(Reference, thinWallsDoNotLeak) {
     for (const float far : {0.0f, 40.0f}) {
         Scene scene;

@@ -12,7 +12,7 @@ using testing::FloatNear;
 
 constexpr float kInvPi = std::numbers::inv_pi_v<float>;
 
-// Where the centre of a pixel of fromAbove() meets the floor.
+// Point on the floor at the centre of a pixel of fromAbove().
 glm::vec3 floorPoint(const PictureDesc& desc, int x, int y) {
     const float h = desc.camera.position.y;
     const float metresPerPixel = 2 * h / float(desc.height);
@@ -96,7 +96,7 @@ TEST(Direct, GlossyMaterialShinesMoreInTheMirrorDirection) {
 }
 
 TEST(Direct, NoAcneFarFromTheOrigin) {
-    // A kilometre away float coordinates are 60 micrometres apart: shadow rays must not meet their own surface.
+    // At a kilometre, float coordinates are 60 micrometres apart: shadow rays must not hit their own surface.
     const auto scene = QuadScene().quad({1000, 500, -800}, {1, 0, 0}, {0, 0, -1}, 5, matt(glm::vec3(1))).ready();
     PictureDesc desc = fromAbove(2, 32, 32);
     desc.camera.position += glm::vec3(1000, 500, -800);

@@ -129,7 +129,7 @@ TEST(Picture, SameForAnyNumberOfThreads) {
         EXPECT_TRUE(layers(a)[layer]->pixels == layers(b)[layer]->pixels) << "layer " << layer;
 }
 
-TEST(Picture, TextureOfTheSkyIsSeenTheRightWayUp) {
+TEST(Picture, TheSkysTextureIsTheRightWayUp) {
     Lighting lighting;
     lighting.sky.radiance = glm::vec3(2);
     lighting.sky.image = HdrImage(4, 2, {0, 0, 1});  // lower half blue
@@ -165,7 +165,7 @@ TEST(Picture, SupersamplingIsTheMeanOfItsRays) {
         for (int x = 0; x < coarse.width; ++x) {
             glm::vec3 mean(0);
             for (int s = 0; s < 16; ++s) mean += b.color.at(4 * x + s % 4, 4 * y + s / 4) / 16.0f;
-            // Equal but for rays that pass an edge within rounding.
+            // Equal except for rays that pass an edge within rounding.
             EXPECT_NEAR(glm::length(a.color.at(x, y) - mean), 0, 0.3f);
         }
 }

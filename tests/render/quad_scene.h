@@ -4,12 +4,12 @@
 
 namespace probegi::test {
 
-/// Scenes of axis-aligned squares, and what is needed to take pictures of them.
+/// Scenes of axis-aligned squares, with all that is needed to draw them.
 class QuadScene {
 public:
     QuadScene() { m_scene.meshes.emplace_back(); }
 
-    /// A square of side 2 * half around `centre`; `right` x `up` is the side that it faces.
+    /// A square of side 2 * half around `centre`, which faces `right` x `up`.
     QuadScene& quad(glm::vec3 centre, glm::vec3 right, glm::vec3 up, float half, Material material) {
         m_scene.materials.push_back(std::move(material));
         Primitive primitive;
@@ -21,7 +21,7 @@ public:
         return *this;
     }
 
-    /// A floor that faces up.
+    /// A floor facing up.
     QuadScene& floor(float half, Material material = {}) {
         return quad({0, 0, 0}, {1, 0, 0}, {0, 0, -1}, half, std::move(material));
     }

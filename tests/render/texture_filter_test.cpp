@@ -1,4 +1,4 @@
-// Textures in pictures: far away a checkerboard is its mean, near by its squares.
+// Textures in pictures: a checkerboard far away is its mean, a near one shows its squares.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ float spread(const HdrImage& image) {
 }
 
 TEST(TextureFilter, AFarCheckerboardIsItsMean) {
-    // 31 pixels over 60 m: each covers 31 squares along an axis, and one sample a pixel would meet black or white.
+    // 31 pixels over 60 m: each covers 31 squares along an axis, and a single sample would be black or white.
     const HdrImage image = albedo(fromAbove(30, 31, 31));
     for (const glm::vec3& pixel : image.pixels) EXPECT_NEAR(pixel.x, 0.5f, 0.005f);
 }
@@ -57,12 +57,12 @@ TEST(TextureFilter, AtAGrazingAngleToo) {
 }
 
 TEST(TextureFilter, NearByItsSquares) {
-    const HdrImage image = albedo(fromAbove(0.1f, 64, 64));  // 20 pixels a square
+    const HdrImage image = albedo(fromAbove(0.1f, 64, 64));  // 20 pixels per square
     EXPECT_EQ(spread(image), 1);
     for (const glm::vec3& pixel : image.pixels) EXPECT_TRUE(pixel.x == 0 || pixel.x == 1);
 }
 
-// What many samples a pixel see without a filter, fewer with one must see too: the mean over the picture.
+// The picture's mean with a filter and few samples equals that without a filter and with many.
 TEST(TextureFilter, KeepsTheMeanInBetween) {
     for (const float height : {0.5f, 2.0f, 8.0f}) {
         const HdrImage image = albedo(fromAbove(height, 48, 48));

@@ -52,7 +52,7 @@ TEST(AccuracyTables, leakInPercentAndCentimetres) {
     EXPECT_THAT(text, HasSubstr("| 5 cm | 50.00 % | 75.00 % | 0.400 % | 0.610 % | 0.500 % | 0.700 % |"));
 }
 
-// Both ways of running stand in every table, with the probes behind the medians and whether the field had converged.
+// Every table has both ways of filling a field, the number of probes behind the medians, and whether it converged.
 TEST(AccuracyTables, bothWaysOfRunning) {
     MeasuredScene measured;
     measured.name = "a room";

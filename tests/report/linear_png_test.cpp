@@ -9,7 +9,7 @@
 namespace probegi::tool {
 namespace {
 
-/// What a page reads back: the codes of both planes as a half float.
+/// Decodes a value as the page does: the codes of both planes as a half float.
 float read(const HdrImage& planes, int x, int y, int channel) {
     const auto code = [&](int row) {
         return std::uint32_t(std::lround(255 * toDisplay(planes.at(x, row), {1, false, false})[channel]));

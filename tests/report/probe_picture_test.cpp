@@ -31,7 +31,7 @@ protected:
         const VolumeDesc grid{{0, 0, 0}, glm::vec3(2), {1, 1, 1}};
         return drawProbes(picture, 1, camera, grid, std::span(&state, 1));
     }
-    /// Pixels that are not as in the corner, where no probe is.
+    /// Pixels that differ from the corner, where there is no probe.
     static int drawn(const HdrImage& image) {
         return int(std::count_if(image.pixels.begin(), image.pixels.end(),
                                  [&](const glm::vec3& p) { return glm::distance(p, image.at(0, 0)) > 1e-4f; }));

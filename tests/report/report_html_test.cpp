@@ -48,7 +48,7 @@ TEST(Base64, allBits) {
     EXPECT_EQ(base64(std::string("\xff\xff\xff\x00\x10\x83", 6)), "////ABCD");
 }
 
-TEST(EscapeHtml, leavesNothingThatEndsTextOrAttribute) {
+TEST(EscapeHtml, leavesNothingThatEndsATextOrAnAttribute) {
     EXPECT_EQ(escapeHtml("a<b>&\"c\"'"), "a&lt;b&gt;&amp;&quot;c&quot;&#39;");
     EXPECT_EQ(escapeHtml("plain, 1 x 2"), "plain, 1 x 2");
 }

@@ -11,7 +11,7 @@ const END = "\uE010";
 const split = (browser, stage) =>
   browser.run("return parseFloat(getComputedStyle(arguments[0]).getPropertyValue('--split'))", browser.reference(stage));
 
-/** Where the upper picture really begins, in percent of the width: what the reader sees. */
+/** Where the upper picture visibly begins, in percent of the width. */
 const shownSplit = (browser, stage) =>
   browser.run(
     `const box = arguments[0].getBoundingClientRect();
@@ -88,12 +88,12 @@ async function checkVerdict(browser) {
   }
 }
 
-/** Runs a function's text in the page that gives a promise, and waits for it. */
+/** Runs the text of a function that returns a promise in the page, and waits for it. */
 const later = (browser, script, ...args) =>
   browser.command("POST", "/execute/async", { script: `const done = arguments[arguments.length - 1];
     (async () => { ${script} })().then(done, (error) => done("failed: " + error));`, args });
 
-/** The values behind a picture, shown at the exposure that it was made with, are the picture but for its dither. */
+/** The values behind a picture, shown at its original exposure, are the picture without its dither. */
 async function checkValues(browser) {
   const apart = await later(browser, `
     const image = document.querySelector("img[data-light]"), view = image.closest(".view");
@@ -109,7 +109,7 @@ async function checkValues(browser) {
   assert.ok(apart.worst <= 2, `values and picture are ${apart.worst} steps apart`);
 }
 
-/** Two stops up doubles the light twice: pictures and sliders follow, and come back. */
+/** Two stops up quadruples the light; pictures and sliders follow, and can be reset. */
 async function checkExposure(browser) {
   const light = `const image = document.querySelectorAll("figure img[data-light]")[3];
     await image.decode();
@@ -186,7 +186,7 @@ async function checkQuiet(browser, url) {
   assert.deepEqual(requests, [], "the page asks for something outside itself");
 }
 
-/** The watch above must be able to fail: a request to elsewhere is seen, and the page's own policy forbids it. */
+/** The check for requests must be able to fail: one to another site is seen, and the page's policy blocks it. */
 async function checkWatch(browser) {
   await browser.run("new Image().src = 'http://127.0.0.1:9/elsewhere.png'");
   const messages = await browser.log("browser");

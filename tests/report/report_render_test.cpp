@@ -5,7 +5,7 @@
 namespace probegi::tool {
 namespace {
 
-// Two cameras, few probes, tiny pictures: every piece of the work is told, in the order in which it was planned.
+// Two cameras, few probes, tiny pictures: every piece of work is announced, in the planned order.
 TEST(ReportRender, PiecesAreThosePlannedAndEveryCameraIsDrawn) {
     SceneOptions options;
     options.scene = "builtin:two-rooms";

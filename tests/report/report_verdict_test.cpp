@@ -49,17 +49,17 @@ TEST(Verdict, PartsMayBeOffByTheReferencesOwnNoise) {
     EXPECT_EQ(of(view).judgement, Judgement::matches);
 }
 
-TEST(Verdict, TooNoisySaysHowLong) {
+TEST(Verdict, TooNoisyRecommendsATime) {
     ViewFacts view = good();
     view.exact.flip = 0.1;
     view.field.flip = 0.12;
     const Verdict verdict = of(view);
     EXPECT_EQ(verdict.judgement, Judgement::noisy);
-    // Four times too noisy: sixteen times the time, 720 s, as a round number.
+    // Four times too noisy: sixteen times the time, 720 s, rounded up.
     EXPECT_THAT(verdict.sentence, HasSubstr("--time 1000"));
     view.referenceSeconds = 12;
     EXPECT_THAT(of(view).sentence, HasSubstr("--time 200"));
-    view.field.flip = 0.5;  // what the field is off by is far more than noise
+    view.field.flip = 0.5;  // the field's error is far above the noise
     EXPECT_NE(of(view).judgement, Judgement::noisy);
 }
 
@@ -72,10 +72,10 @@ TEST(Verdict, LeaksComeFirst) {
     EXPECT_EQ(verdict.judgement, Judgement::leaks);
     EXPECT_THAT(verdict.sentence, HasSubstr("Leaks here: 3 of 1000 places"));
     EXPECT_THAT(verdict.sentence, HasSubstr("up to 4.3 times"));
-    view.worstLeak = 1000;  // where there should be none at all
+    view.worstLeak = 1000;  // where there should be no light
     EXPECT_THAT(of(view).sentence, HasSubstr("over 100 times"));
     view.exact.flip = 0.01;
-    view.leaks = 2;  // a leaf here and there
+    view.leaks = 2;  // too few to matter
     EXPECT_EQ(of(view).judgement, Judgement::matches);
 }
 

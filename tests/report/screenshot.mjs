@@ -1,4 +1,4 @@
-// Pictures of a report for looking at. Usage: node screenshot.mjs REPORT.html DESKTOP.png PHONE.png
+// Takes screenshots of a report, for inspection. Usage: node screenshot.mjs REPORT.html DESKTOP.png PHONE.png
 import { writeFileSync } from "node:fs";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";

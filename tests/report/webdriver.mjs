@@ -1,4 +1,4 @@
-// A headless Chromium through chromedriver's WebDriver interface (W3C), with nothing but what Node brings.
+// A headless Chromium by chromedriver's WebDriver interface (W3C), using Node's standard library only.
 import { spawn } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -11,7 +11,7 @@ const CHROMIUM_FLAGS = [
   "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage", "--hide-scrollbars",
 ];
 
-/** Starts chromedriver on a port of its own choice and resolves to { port, process }. */
+/** Starts chromedriver on a free port and resolves to { port, process }. */
 function startDriver() {
   return new Promise((resolve, reject) => {
     const driver = spawn("chromedriver", ["--port=0"], { stdio: ["ignore", "pipe", "pipe"] });
@@ -73,7 +73,7 @@ export class Browser {
     return this.command("POST", "/url", { url });
   }
 
-  /** Shows the page as on a small dark screen from here on. */
+  /** From here on, emulates a small screen in dark mode. */
   async emulatePhone(width = 390, height = 844) {
     const devtools = (cmd, params) => this.command("POST", "/goog/cdp/execute", { cmd, params });
     await devtools("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 2, mobile: true });

@@ -28,7 +28,7 @@ TEST(WholeProgress, NeverFalls) {
     progress.begin();
     EXPECT_DOUBLE_EQ(progress.fraction(-1), 0.5);
     EXPECT_DOUBLE_EQ(progress.fraction(7), 1);
-    progress.begin();  // more than were planned
+    progress.begin();  // more than planned
     EXPECT_DOUBLE_EQ(progress.fraction(0), 1);
     WholeProgress nothing({});
     nothing.begin();

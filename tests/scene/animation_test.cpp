@@ -81,7 +81,7 @@ TEST(Animation, SplineUsesTheOutTangentOfOneKeyAndTheInTangentOfTheNext) {
     AnimationChannel c;
     c.interpolation = Interpolation::cubicSpline;
     c.times = {0, 2};
-    // In-tangent of the first key and out-tangent of the last one must not matter.
+    // The in-tangent of the first key and the out-tangent of the last must not matter.
     c.values = {glm::vec4(1e6f), glm::vec4(0), glm::vec4(3), glm::vec4(5), glm::vec4(1), glm::vec4(1e6f)};
     // Halfway: (v0 + v1) / 2 + span (b0 - a1) / 8 = 0.5 + 2 (3 - 5) / 8 = 0.
     EXPECT_NEAR(sampleChannel(c, 1).x, 0, 1e-6f);

@@ -23,7 +23,7 @@ struct BuiltTracer {
     std::unique_ptr<Tracer> tracer;
 };
 
-/// On the heap: the tracer refers to the scene.
+/// On the heap, since the tracer refers to the scene.
 std::unique_ptr<BuiltTracer> build(std::string_view name, const BuiltinParams& params = {}) {
     auto built = std::make_unique<BuiltTracer>();
     built->scene = makeBuiltinScene(name, params).value();
@@ -132,7 +132,7 @@ TEST_P(BuiltinTest, CamerasStandInTheOpenAndSeeFronts) {
             near += seen.hits[i].distance < 0.1f;
         }
         EXPECT_GT(hits, 0u) << camera.name;
-        // Along an edge that two solids share a ray may slip between them.
+        // Rays along an edge shared by two solids may slip between them.
         EXPECT_LE(backs, 1u) << camera.name;
         EXPECT_EQ(near, 0u) << camera.name;
     }

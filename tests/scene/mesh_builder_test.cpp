@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPi = glm::pi<double>();
 
-/// Volume of what `add` builds; fails unless it is closed, with unit normals on the fronts' side.
+/// Volume of the mesh that `add` builds; fails unless it is closed, with unit normals on the front side.
 template <class Add>
 double closedVolume(const Add& add, const char* what = "") {
     SCOPED_TRACE(what);
@@ -139,7 +139,7 @@ TEST(BoxSolid, RoomsShowTheirPaintAndLaterWallsTheirOwn) {
         }
     }
     EXPECT_NEAR(area[0], 6 * 16, 1e-3f);            // outside
-    EXPECT_NEAR(area[1], 4 * 4 - 2 * 0.5f, 1e-3f);  // walls less where the block stands against two of them
+    EXPECT_NEAR(area[1], 4 * 4 - 2 * 0.5f, 1e-3f);  // walls, less the faces of the block against two of them
     EXPECT_NEAR(area[2], 4 - 0.25f, 1e-3f);         // floor less the block's foot
     EXPECT_NEAR(area[3], 4, 1e-3f);                 // ceiling
     EXPECT_NEAR(area[4], 0.25f + 2 * 0.5f, 1e-3f);  // the block's top and its two free sides

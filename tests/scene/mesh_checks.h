@@ -11,7 +11,7 @@
 
 namespace probegi::test {
 
-/// The triangles of a mesh's single-sided primitives with equal positions made one vertex.
+/// The triangles of a mesh's single-sided primitives, with equal positions merged into one vertex.
 struct WeldedMesh {
     std::vector<glm::vec3> positions;
     std::vector<std::uint32_t> indices;
@@ -21,7 +21,7 @@ inline WeldedMesh weld(const Scene& scene, const Mesh& mesh) {
     WeldedMesh out;
     for (const Primitive& p : mesh.primitives) {
         if (scene.materials[std::size_t(p.material)].doubleSided) continue;
-        // Adding zero makes minus zero plus zero.
+        // Adding zero turns -0 into 0.
         for (const std::uint32_t i : p.indices) out.positions.push_back(p.positions[i] + glm::vec3(0));
     }
     const auto less = [](glm::vec3 a, glm::vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
@@ -35,7 +35,7 @@ inline WeldedMesh weld(const Scene& scene, const Mesh& mesh) {
     return out;
 }
 
-/// Edges that do not meet as many others running the opposite way: none in a closed, consistently oriented surface.
+/// Edges not matched by edges of opposite direction: none in a closed, consistently oriented surface.
 inline std::size_t openEdges(const WeldedMesh& mesh) {
     struct Edge {
         std::uint32_t low, high;
@@ -60,7 +60,7 @@ inline std::size_t openEdges(const WeldedMesh& mesh) {
     return open;
 }
 
-/// Volume enclosed, positive where the fronts look outwards.
+/// Enclosed volume, positive if the fronts face outwards.
 inline double signedVolume(const WeldedMesh& mesh) {
     double volume = 0;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {

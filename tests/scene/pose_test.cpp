@@ -78,7 +78,7 @@ TEST(Pose, WhatIsScaledToNothingIsLeftOut) {
     Scene scene = test::sceneOf(test::triangle());
     scene.nodes[0].scale = glm::vec3(0);
     EXPECT_TRUE(poseAt(scene).instances.empty());
-    scene.nodes[0].scale = {1, 1, 0};  // flat, but still to be seen
+    scene.nodes[0].scale = {1, 1, 0};  // flat, but still visible
     EXPECT_EQ(poseAt(scene).instances.size(), 1u);
 }
 

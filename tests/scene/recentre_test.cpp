@@ -5,7 +5,7 @@
 namespace probegi {
 namespace {
 
-/// A triangle of 3 x 2 m, and what else can stand in a scene, at `at`.
+/// A triangle of 3 x 2 m at `at`, with everything else that has a position in a scene.
 Scene sceneAt(glm::vec3 at, bool byVertices = false) {
     const glm::vec3 nodeAt = byVertices ? glm::vec3(0.0f) : at;
     const glm::vec3 meshAt = byVertices ? at : glm::vec3(0.0f);
@@ -38,7 +38,7 @@ Scene sceneAt(glm::vec3 at, bool byVertices = false) {
     return scene;
 }
 
-// All coordinates are whole multiples of 1/32 m, which floats still have at half a million metres.
+// All coordinates are multiples of 1/32 m, the resolution of floats at half a million metres.
 const glm::vec3 kFar(500'000, -20, 300'000);
 
 void expectSameScene(const Scene& moved, const Scene& reference) {

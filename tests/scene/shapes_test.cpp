@@ -10,7 +10,7 @@
 namespace probegi::test {
 namespace {
 
-/// Sum over triangles of six times the volume to the origin: the volume that closed, outward faces enclose.
+/// Volume enclosed by closed, outward faces: a sum over triangles of their volume to the origin.
 float volume(const Primitive& p) {
     float sum = 0;
     for (std::size_t i = 0; i < p.indices.size(); i += 3)
@@ -19,7 +19,7 @@ float volume(const Primitive& p) {
     return sum / 6;
 }
 
-/// Every triangle's normals are unit and on the side of its winding.
+/// Expects every triangle's normals to be unit and on the front side by its winding.
 void expectFlatNormals(const Primitive& p) {
     ASSERT_EQ(p.normals.size(), p.positions.size());
     for (std::size_t i = 0; i < p.indices.size(); i += 3) {

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The rules of docs/architecture.md that a compiler does not check. Usage: check.sh RULE [PROJECT_FOLDER]
-# Rules: layers names public_headers kernel_tests examples sizes assets words links. Prints what breaks the rule; exit code 1 if anything does.
+# Rules: layers names public_headers kernel_tests examples sizes assets words links. Prints violations; exit code 1 if
+# there are any.
 set -euo pipefail
 shopt -s nullglob globstar
 
@@ -12,12 +13,12 @@ complain() {
     complaints=1
 }
 
-# Files of the project; in an unpacked archive, which has no git, everything but build folders.
+# Files of the project; in an unpacked archive, without git, everything outside build folders.
 project_files() {
     git ls-files 2>/dev/null || find . -type f -not -path './build*' -not -path './out/*' -printf '%P\n'
 }
 
-# What each folder of src/ may include besides itself: the layers below it. Kernels may be included by all.
+# Layers below each folder of src/, which it may include besides itself.
 declare -A below=(
     [kernels]=""
     [core]="kernels"
@@ -34,7 +35,7 @@ declare -A below=(
     [measure]="field geometry scene core kernels"
 )
 
-# path:line of each quoted include whose path begins with a folder name, as "file folder".
+# Prints "file folder" for each quoted include whose path begins with a folder name.
 folder_includes() {
     grep -HoP '^\s*#\s*include\s+"\K[a-z_]+(?=/)' "$@" | tr ':' ' ' || true
 }
@@ -64,7 +65,7 @@ check_layers() {
     done < <(folder_includes /dev/null apps/**/*.{h,cpp})
 }
 
-# No two files of src/ have one name, so that a name in a message or in talk is one file. Kernels keep theirs; the others:
+# No two files of src/ have the same name, so that a name identifies a file. Exceptions:
 namesakes="probe_query.h"
 check_names() {
     local name
@@ -80,7 +81,7 @@ check_names() {
 check_public_headers() {
     local file header
     while IFS=: read -r file header; do
-        # Engines pass their own handles there.
+        # Engines pass Vulkan handles there.
         [[ "$file $header" != "include/probegi/vulkan/device.h <vulkan/vulkan_core.h>" ]] || continue
         case "$header" in
             \<*.h\> | \<embree* | \<tbb* | \<vulkan* | \<hwy* | \<fmt* | \<nlohmann*)
@@ -100,7 +101,7 @@ check_public_headers() {
     done
 }
 
-# Agreement of backends cannot see a wrong formula that they share: each kernel has a test of its own.
+# Comparing backends cannot reveal an error that they share, so each kernel must have a direct test.
 check_kernel_tests() {
     local header
     for header in src/kernels/**/*.h; do
@@ -137,7 +138,7 @@ check_assets() {
     done < <(project_files)
 }
 
-# Paths of one machine have no place in a project.
+# Paths of one machine do not belong in a project.
 check_words() {
     local file
     while read -r file; do
@@ -146,12 +147,12 @@ check_words() {
     done < <(project_files | grep -v '^tests/structure/')
 }
 
-# The headings of a page as a web page of it calls them: small letters, - for blanks, no punctuation.
+# The anchors of a page's headings: lower case, - for spaces, no punctuation.
 anchors() {
     sed -n 's/^##* *//p' "$1" | tr '[:upper:] ' '[:lower:]-' | sed 's/[^a-z0-9_-]//g'
 }
 
-# Links between pages and into the project lead somewhere.
+# Links between pages and into the project must not be broken.
 check_links() {
     local page target file anchor
     while IFS=: read -r page target; do

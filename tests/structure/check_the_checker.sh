@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Each rule of check.sh must find what it is there to find: breaks it on purpose in a scratch project.
+# Breaks each rule of check.sh in a scratch project, and checks that it complains.
 set -euo pipefail
 
 check=$(realpath "$(dirname "${BASH_SOURCE[0]}")/check.sh")
@@ -7,7 +7,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 failed=0
 
-# expect_complaint RULE FILES CONTENT: with this file, or these, alone in the project, the rule must complain about it.
+# expect_complaint RULE FILES CONTENT: in a project of only these files, the rule must complain.
 expect_complaint() {
     local project=$scratch/project file
     rm -rf "$project"

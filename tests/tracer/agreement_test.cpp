@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kRays = 1'000'000;
 constexpr double kRelative = 1e-4;      // how closely distances agree
-constexpr float kBeside = 1e-4f;        // radians within which an edge explains another answer
+constexpr float kBeside = 1e-4f;        // radians within which an edge explains a different result
 constexpr double kMostOutliers = 1e-5;  // share of the rays
 
 struct World {
@@ -29,7 +29,7 @@ struct World {
     }
 };
 
-/// Rays from anywhere in the bounds in all directions, as long as a share of the scene's size.
+/// Rays from anywhere in the bounds in all directions.
 std::vector<Ray> randomRays(const Bounds& bounds, std::size_t count) {
     std::mt19937 random(51);
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
@@ -55,7 +55,7 @@ std::vector<Ray> bundle(const Ray& ray) {
         const float angle = 0.7853981f * float(i), radius = kBeside * (i < 16 ? 1.0f : 0.2f);
         const glm::vec3 aside = std::cos(angle) * u + std::sin(angle) * v;
         Ray beside = ray;
-        // Turned, and shifted: an edge near the origin is passed by a shift.
+        // Turned or shifted: only a shift gets past an edge near the origin.
         if (i % 16 < 8)
             beside.direction = glm::normalize(ray.direction + radius * aside);
         else
@@ -65,7 +65,7 @@ std::vector<Ray> bundle(const Ray& ray) {
     return rays;
 }
 
-/// Whether the reference gives the other answer too, for a ray beside this one: then both are right.
+/// Whether the reference gives the other result for a nearby ray: then both are right.
 bool explained(const Tracer& reference, const Ray& ray, const Hit& answer) {
     const std::vector<Ray> beside = bundle(ray);
     std::vector<Hit> hits(beside.size());
@@ -131,7 +131,7 @@ void expectAgreement(const World& world) {
     expectSameOcclusion(world, rays);
 }
 
-/// Closed form for what counts as explained: the square of quad(), whose edges are known.
+/// explained() on a closed form: the square of quad(), whose edges are known.
 TEST(Explanation, isAnEdgeNearbyAndNothingElse) {
     TestScene s;
     s.add(quad());
@@ -180,7 +180,7 @@ TEST_P(TracerAgreement, inEverySceneFile) {
     }
 }
 
-// What a hit looks like is the same as well, where both hit the same place.
+// Surfaces agree too where both hit the same place.
 TEST_P(TracerAgreement, surfacesLookTheSame) {
     auto loaded = loadScene(scenesFolder() / "sponza" / "sponza.glb");
     ASSERT_TRUE(loaded) << loaded.error().message;
@@ -195,8 +195,7 @@ TEST_P(TracerAgreement, surfacesLookTheSame) {
     std::size_t compared = 0, differing = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!reference[i].valid() || !sameDistance(own[i], reference[i], kRelative)) continue;
-        // Sponza has surfaces in the very same place: which of them is hit is a tie, and inEverySceneFile looks at
-        // those.
+        // Sponza has coincident surfaces, where either hit is right; inEverySceneFile covers those.
         if (own[i].primitive != reference[i].primitive || own[i].geometry != reference[i].geometry) continue;
         ++compared;
         const Surface &a = ownSurfaces[i], &b = surfaces[i];
@@ -208,7 +207,7 @@ TEST_P(TracerAgreement, surfacesLookTheSame) {
         differing += same ? 0 : 1;
     }
     EXPECT_GT(compared, rays.size() / 2);
-    // A texel's edge within rounding.
+    // Rounding may select another texel.
     EXPECT_LT(double(differing), 2e-4 * double(compared));
     RecordProperty("differing", std::to_string(differing));
 }

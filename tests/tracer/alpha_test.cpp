@@ -1,4 +1,4 @@
-// Alpha masks: rays pass through holes, whether they ask for the closest hit or for anything in between.
+// Alpha masks: rays pass through holes, for closest hits and for occlusion.
 #include "tracer/tracer_scene.h"
 
 namespace probegi::test {

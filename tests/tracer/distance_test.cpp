@@ -1,4 +1,4 @@
-// Hits on shapes whose distances are known in closed form.
+// Hits on shapes at distances known in closed form.
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <limits>

@@ -1,4 +1,4 @@
-// A scene in which things move: its tracer is where a fresh one is.
+// A scene with moving parts: after moves, its tracer agrees with a new one.
 #include <algorithm>
 
 #include "probegi/probegi.h"
@@ -11,7 +11,7 @@ using testing::HasSubstr;
 
 constexpr int kDoor = 2;
 
-/// A room, a lamp that can be carried, a door, and a thing that hangs on it.
+/// A room, a movable lamp, a door, and an object attached to it.
 Scene roomWithDoor() {
     Scene scene;
     scene.materials.resize(2);
@@ -63,7 +63,7 @@ Answers ask(const Tracer& tracer, const std::vector<Ray>& rays) {
     return a;
 }
 
-/// Rays whose answers are not the same but for rounding.
+/// Number of rays whose results differ by more than rounding.
 int differing(const Answers& a, const Answers& b) {
     int count = 0;
     for (std::size_t i = 0; i < a.hits.size(); ++i)
@@ -91,7 +91,7 @@ protected:
 };
 INSTANTIATE_TEST_SUITE_P(All, MovingScene, testing::ValuesIn(movableMakers()), nameOf<TracerMaker>);
 
-TEST_P(MovingScene, IsWhereAFreshTracerHasIt) {
+TEST_P(MovingScene, AgreesWithANewTracer) {
     ASSERT_TRUE(validate(scene));
     const auto moving = makeMoving();
     const std::vector<Ray> rays = randomRays(4000);
@@ -124,7 +124,7 @@ TEST_P(MovingScene, WhatIsNotMovableStays) {
     EXPECT_EQ(differing(ask(*moving, rays), ask(*make(scene, poseAt(scene)), rays)), 0);
 }
 
-TEST_P(MovingScene, RefusesWhatIsNoPoseOfIt) {
+TEST_P(MovingScene, RefusesPosesThatDoNotFit) {
     const auto moving = makeMoving();
     const std::vector<Ray> rays = randomRays(500);
     const Answers before = ask(*moving, rays);

@@ -12,7 +12,7 @@ namespace {
 
 struct Nearest {
     double distance = 1e30;
-    double margin = 1.0;  ///< least barycentric weight over all triangles that were met or nearly met
+    double margin = 1.0;  ///< least barycentric weight of all triangles hit or nearly hit
     glm::dvec3 normal{0.0};
 };
 
@@ -73,7 +73,7 @@ glm::mat4 randomTransform(std::mt19937& random, bool mirrored) {
     return glm::scale(m, glm::vec3(mirrored ? -x : x, y, z));
 }
 
-/// Two soups that are placed once (one of them mirrored), one that is placed four times, mirrored twice.
+/// Two soups placed once (one of them mirrored), and one placed four times, two of them mirrored.
 TestScene makeSoups() {
     TestScene s;
     std::mt19937 random(11);
@@ -115,7 +115,7 @@ TEST_P(TracerOracle, AgreesWithBruteForce) {
     int compared = 0, hit = 0, backfaces = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Nearest expected = bruteForce(s, rays[i]);
-        if (expected.margin < 1e-4) continue;  // within rounding of an edge both answers are right
+        if (expected.margin < 1e-4) continue;  // near an edge, both results are right
         ++compared;
         ASSERT_EQ(hits[i].valid(), expected.distance < 1e30) << i;
         EXPECT_EQ(blocked[i] == 1, hits[i].valid()) << i;
@@ -155,7 +155,7 @@ TEST_P(TracerOracle, ARayDoesNotDependOnItsBatch) {
     const TestScene s = makeSoups();
     const auto tracer = trace(GetParam(), s);
     std::vector<Ray> rays = randomRays(1003);
-    for (std::size_t i = 400; i < 700; ++i)  // as coherent as rows of pixels
+    for (std::size_t i = 400; i < 700; ++i)  // coherent, like rows of pixels
         rays[i] = rayAlong({0, 0, 5}, {-0.3f + 0.002f * float(i - 400), 0.1f, -1});
     std::vector<Hit> together(rays.size());
     std::vector<std::uint8_t> blocked(rays.size());

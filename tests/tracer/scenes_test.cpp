@@ -1,4 +1,4 @@
-// The real scenes: read, traced, and as closed as their description says.
+// The scene files: loaded, traced, and as closed as their description says.
 #include <cmath>
 
 #include "probegi/io.h"
@@ -31,7 +31,7 @@ struct Traced {
     }
 };
 
-/// One diffuse-looking step of each walker to the next surface.
+/// Walkers that step from surface to surface in random directions, like diffuse paths.
 struct Walk {
     std::vector<Ray> rays;
     std::vector<Hit> hits;
@@ -82,7 +82,7 @@ TEST_P(TracerRealScenes, SponzaIsNearlyClosed) {
     std::mt19937 random(32);
     Walk walk({-9, 2.5f, 0}, 4000, random);
     for (int i = 0; i < 10; ++i) walk.step(*scene.tracer, 1e-3f, random);
-    // The description counts 1.9 % through the roof and 0.12 % on backs, from four other places.
+    // The description gives 1.9 % through the roof and 0.12 % on backs, from four other places.
     EXPECT_LT(double(walk.escaped) / double(walk.steps), 0.15);
     EXPECT_LT(double(walk.backfaces) / double(walk.steps), 0.01);
 }

@@ -1,4 +1,4 @@
-// What a hit looks like: sides, normals, normal maps and material textures.
+// Surfaces at hits: sides, normals, normal maps and material textures.
 #include <cmath>
 #include <limits>
 
@@ -24,7 +24,7 @@ std::vector<std::uint8_t> uniform(std::uint8_t r, std::uint8_t g, std::uint8_t b
     return {r, g, b, 255};
 }
 
-/// A quad whose normal map holds one code everywhere.
+/// A quad with a normal map of one code.
 TestScene mappedQuad(glm::u8vec3 code, float scale = 1.0f) {
     TestScene s;
     Material m;
@@ -34,7 +34,7 @@ TestScene mappedQuad(glm::u8vec3 code, float scale = 1.0f) {
     return s;
 }
 
-/// What a normal map's code means in its frame.
+/// The normal that a code encodes, in its frame.
 glm::vec3 decode(glm::u8vec3 code) {
     return glm::normalize(glm::vec3(code) * (2.0f / 255.0f) - 1.0f);
 }
@@ -165,7 +165,7 @@ TEST_P(TracerSurface, ShadingNormalsThatFaceAwayAreBent) {
 }
 
 TEST_P(TracerSurface, NormalMapPointsAlongTheImage) {
-    // Red leans the normal towards +u, which is +x here; green towards the image's top, which is -z.
+    // Red tilts the normal towards +u, which is +x here; green towards the image's top, which is -z.
     const glm::u8vec3 code(180, 200, 230);
     const glm::vec3 n = decode(code);
     TestScene s = mappedQuad(code);
@@ -178,7 +178,7 @@ TEST_P(TracerSurface, NormalMapWithTangentsOfTheFile) {
     const glm::u8vec3 code(180, 200, 230);
     const glm::vec3 n = decode(code);
     TestScene s = mappedQuad(code);
-    // Tangent along +z and a bitangent to the other side: n = x T + y B, B = cross(+y, +z) * -1 = -x.
+    // Tangent along +z and a flipped bitangent: n = x T + y B, B = cross(+y, +z) * -1 = -x.
     s.scene.meshes[0].primitives[0].tangents.assign(4, {0, 0, 1, -1});
     s.scene.meshes[0].primitives[0].normals.assign(4, {0, 1, 0});
     s.place(0);
@@ -249,7 +249,7 @@ TEST_P(TracerSurface, UvIsThatOfTheHit) {
 
 TEST_P(TracerSurface, SecondUvSet) {
     TestScene s;
-    s.add(quad(), glm::translate(glm::mat4(1.0f), glm::vec3(5, 0, 0)));  // vertices before those with a second set
+    s.add(quad(), glm::translate(glm::mat4(1.0f), glm::vec3(5, 0, 0)));  // its vertices precede those with a second set
     Material m;
     m.baseColorTexture.image = s.addImage(2, 1, {0, 0, 0, 255, 255, 0, 0, 255});
     m.baseColorTexture.nearest = true;
@@ -261,7 +261,8 @@ TEST_P(TracerSurface, SecondUvSet) {
     EXPECT_EQ(shoot(*trace(GetParam(), s), rayAlong({-0.5f, 1, 0.1f}, {0, -1, 0})).surface.albedo, glm::vec3(1, 0, 0));
 }
 
-// A chessboard of 64 x 64 texels on 2 x 2 m: over a cone that covers many of them it is grey; over none, as surfaces().
+// A checkerboard of 64 x 64 texels on 2 x 2 m is grey over a cone that covers many of them; without a cone the result
+// is that of surfaces().
 TEST_P(TracerSurface, TexturesAreFilteredOverTheCone) {
     TestScene s;
     std::vector<std::uint8_t> chess;

@@ -1,4 +1,4 @@
-// The tracer is shared by all threads, and leaves theirs as it found them.
+// Any number of threads may share a tracer, and it does not change their floating-point modes.
 #include <cstring>
 #include <limits>
 #include <thread>
@@ -25,7 +25,7 @@ TEST_P(TracerThreads, ManyAtOnceGetTheSameAnswers) {
         EXPECT_EQ(std::memcmp(mine.data(), hits[0].data(), mine.size() * sizeof(Hit)), 0);
 }
 
-TEST_P(TracerThreads, TheCallersDenormalsSurvive) {
+TEST_P(TracerThreads, TheCallersDenormalModeIsKept) {
     TestScene s;
     s.add(quad());
     shoot(*trace(GetParam(), s), rayAlong({0, 1, 0}, {0, -1, 0}));

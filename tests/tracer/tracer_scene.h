@@ -41,7 +41,7 @@ struct TestScene {
     }
 };
 
-/// A scene's tracer, by the maker under test.
+/// A scene's tracer, from the maker under test.
 inline std::unique_ptr<Tracer> trace(const TracerMaker& maker, const TestScene& s, int threads = 1) {
     const Result<void> valid = validate(s.scene);
     EXPECT_TRUE(valid) << valid.error().message;
@@ -50,7 +50,7 @@ inline std::unique_ptr<Tracer> trace(const TracerMaker& maker, const TestScene& 
     return std::move(*tracer);
 }
 
-/// One ray, asked everything.
+/// All results for one ray.
 struct Shot {
     Hit hit;
     Surface surface;

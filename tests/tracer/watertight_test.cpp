@@ -1,4 +1,4 @@
-// No ray slips between the triangles of a closed mesh: a lost ray is leaking light.
+// No ray slips between the triangles of a closed mesh: lost rays leak light.
 #include "tracer/tracer_scene.h"
 
 namespace probegi::test {
@@ -25,7 +25,7 @@ struct Room {
     glm::vec3 inWorld(glm::vec3 p) const { return glm::vec3(toWorld * glm::vec4(p, 1.0f)); }
 };
 
-/// Shoots batches that `aim` fills and counts the rays that meet nothing, by either question.
+/// Traces batches filled by `aim`; counts the rays that miss, as closest hits or as occlusion.
 template <class Aim>
 std::size_t escapes(const Tracer& tracer, std::size_t batches, const Aim& aim) {
     std::vector<Ray> rays(kBatch);
@@ -64,7 +64,7 @@ TEST_P(TracerWatertight, AMillionRandomRays) {
 
 namespace {
 
-/// Escapes of rays aimed at points of edges: `along` gives the share of the way from one vertex to the next.
+/// Escapes of rays aimed at points on edges; `along` gives the position between the two vertices, 0..1.
 template <class Along>
 std::size_t escapesAtEdges(const TracerMaker& maker, bool instanced, std::size_t batches, Along along) {
     const Room room(instanced);
@@ -93,7 +93,7 @@ TEST_P(TracerWatertight, RaysAtEdges) {
 
 TEST_P(TracerWatertight, RaysAtVerticesHardlyEverEscape) {
     // Embree's edge tests agree between neighbours but not around a vertex: of rays aimed exactly at one, 0.14 % were
-    // lost (16 % without the robust flag, which also lost 1.8 % at edges). A random ray does not meet a vertex.
+    // lost (16 % without the robust flag, and 1.8 % at edges). Random rays do not hit vertices exactly.
     for (const bool instanced : {false, true}) {
         const std::size_t lost = escapesAtEdges(GetParam(), instanced, 32, [](std::mt19937&) { return 0.0f; });
         EXPECT_LE(double(lost), GetParam().vertexLoss * 32 * kBatch) << (instanced ? "instanced" : "merged");

@@ -1,4 +1,4 @@
-// An engine hands over its device.
+// Devices adopted from an engine.
 #include "vulkan/engine.h"
 #include "vulkan/hooks.h"
 #include "vulkan/log_book.h"
@@ -31,7 +31,7 @@ bool hasRayQuery() {
     return devices && !devices->empty() && devices->front().rayQuery;
 }
 
-/// An engine's allocator that counts, and fails when told.
+/// An engine's allocator that counts, and fails on request.
 struct CountingAllocator {
     explicit CountingAllocator(const Engine& e) : engine(e) {}
 
@@ -50,7 +50,7 @@ struct CountingAllocator {
     VkResult allocate(const VkMemoryRequirements& needs, vulkan::MemoryUse use, vulkan::Allocation& out) {
         const VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO, nullptr,
                                               VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, 0};
-        // Not at the start of its memory, as pieces of a pool are.
+        // At an offset, like pieces of a pool.
         out.offset = use == vulkan::MemoryUse::device ? needs.alignment : 0;
         VkPhysicalDeviceMemoryProperties properties;
         vkGetPhysicalDeviceMemoryProperties(engine.physical, &properties);
@@ -82,7 +82,7 @@ struct CountingAllocator {
 
 }  // namespace
 
-TEST_F(VulkanAdopt, aDeviceWithEverythingIsTaken) {
+TEST_F(VulkanAdopt, aCompleteDeviceIsAdopted) {
     Engine engine;
     const auto device = vulkan::Device::adopt(log, engine.adoptDesc());
     ASSERT_TRUE(device) << device.error().message;
@@ -93,7 +93,7 @@ TEST_F(VulkanAdopt, aDeviceWithEverythingIsTaken) {
 
 TEST_F(VulkanAdopt, rayQueryIsSeenWhereItIsEnabled) {
     if (!hasRayQuery()) {
-        // Nothing to enable; asking for it is refused (device_test.cpp).
+        // The device lacks it; requesting it is refused (device_test.cpp).
         EXPECT_FALSE(vulkan::Device::open(log)->rayQuery());
         return;
     }
@@ -105,7 +105,7 @@ TEST_F(VulkanAdopt, rayQueryIsSeenWhereItIsEnabled) {
         vulkan::GpuScene::create(log, *device, world.scene, world.pose, {.tracer = vulkan::TracerKind::rayQuery});
     ASSERT_TRUE(scene);
     EXPECT_EQ(scene->tracer(), vulkan::TracerKind::rayQuery);
-    // Left to itself the library takes ray query where it is hardware.
+    // By default, the library uses ray query if it is in hardware.
     const auto chosen = vulkan::GpuScene::create(log, *device, world.scene, world.pose);
     ASSERT_TRUE(chosen);
     const bool software = device->info().type == "software";
@@ -164,7 +164,7 @@ TEST_F(VulkanAdopt, aFamilyWithoutComputeIsRefused) {
     Engine engine;
     vulkan::AdoptDesc desc = engine.adoptDesc();
     desc.getInstanceProcAddr = hookedLoader;
-    // The device has compute, but in another family.
+    // The device supports compute, but in another queue family.
     int asked = 0;
     hooks().families = [&](VkQueueFamilyProperties& f) {
         if (++asked > 1) f.queueFlags &= ~VkQueueFlags(VK_QUEUE_COMPUTE_BIT);
@@ -186,7 +186,7 @@ TEST_F(VulkanAdopt, worksWithoutDebugUtils) {
     EXPECT_EQ(volume->control().frame(), 1);
 }
 
-TEST_F(VulkanAdopt, debugUtilsThatWereClaimedButAreNotThereDoNotCrash) {
+TEST_F(VulkanAdopt, debugUtilsClaimedButMissingDoNotCrash) {
     Engine engine({.debugUtils = false});
     vulkan::AdoptDesc desc = engine.adoptDesc();
     const char* const claimed[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
@@ -198,7 +198,7 @@ TEST_F(VulkanAdopt, debugUtilsThatWereClaimedButAreNotThereDoNotCrash) {
     EXPECT_TRUE(vulkan::GpuField::create(*device, world.desc));
 }
 
-TEST_F(VulkanAdopt, whatSubmitsIsRefusedWithASentence) {
+TEST_F(VulkanAdopt, callsThatSubmitAreRefusedWithAMessage) {
     Engine engine;
     const auto device = vulkan::Device::adopt(log, engine.adoptDesc());
     ASSERT_TRUE(device);

@@ -1,4 +1,4 @@
-// The file of compiled pipelines: whatever is in it or becomes of it, the device works.
+// The pipeline cache file: whatever it contains or happens to it, the device works.
 #include <sys/stat.h>
 
 #include <fstream>
@@ -41,14 +41,14 @@ protected:
         return vulkan::Device::open(log, desc);
     }
     fs::path folder() const { return m_folder / "cache"; }
-    // The one file of the folder; nothing else may lie there.
+    // The only file in the folder; there must be no other.
     fs::path file() const {
         std::vector<fs::path> files;
         for (const auto& entry : fs::directory_iterator(folder())) files.push_back(entry.path());
         EXPECT_EQ(files.size(), 1u);
         return files.empty() ? fs::path() : files.front();
     }
-    // Opens, compiles a few passes, closes.
+    // Opens a device, compiles a few passes, closes it.
     void use() const {
         const auto device = open(folder());
         ASSERT_TRUE(device) << device.error().message;
@@ -98,7 +98,7 @@ TEST_F(VulkanCache, withoutAFolderNothingIsWritten) {
     EXPECT_TRUE(device->savePipelines());
 }
 
-TEST_F(VulkanCache, everyDamageIsSeenReportedAndRepaired) {
+TEST_F(VulkanCache, everyDamageIsDetectedReportedAndRepaired) {
     use();
     const fs::path path = file();
     const std::vector<char> good = bytesOf(path);
@@ -127,7 +127,7 @@ TEST_F(VulkanCache, everyDamageIsSeenReportedAndRepaired) {
 
 TEST_F(VulkanCache, aFileOfAnotherDriverIsIgnored) {
     hooks().properties = [](VkPhysicalDeviceProperties& p) { p.pipelineCacheUUID[3] ^= 0x40; };
-    use();  // named for the other driver, but filled by this one
+    use();  // the other driver's name, but this one's contents
     EXPECT_EQ(log.count("another driver"), 0);
     use();
     EXPECT_EQ(log.count("of another driver and was ignored"), 1) << log.all();
@@ -162,12 +162,12 @@ TEST_F(VulkanCache, aPipeOrADeviceInTheFilesPlaceIsNotRead) {
     EXPECT_TRUE(fs::is_regular_file(path)) << "it was not made anew";
     fs::remove(path);
     fs::create_symlink("/dev/zero", path);
-    use();  // would read for ever
+    use();  // would read forever
     EXPECT_EQ(log.count("is damaged"), 2);
     EXPECT_TRUE(fs::is_character_file("/dev/zero"));
 }
 
-TEST_F(VulkanCache, aFolderInTheFilesPlaceIsSurvived) {
+TEST_F(VulkanCache, aFolderInTheFilesPlaceIsHandled) {
     use();
     const fs::path path = file();
     fs::remove(path);
@@ -182,7 +182,7 @@ TEST_F(VulkanCache, devicesThatWriteAtOnceLeaveOneGoodFile) {
     std::vector<std::thread> threads;
     for (int i = 0; i < 3; ++i)
         threads.emplace_back([&] {
-            // The counting hooks are for one thread.
+            // Not the counting hooks, which are not thread-safe.
             vulkan::OpenDesc desc;
             desc.cacheFolder = folder();
             const Context silent = *Context::create({.threads = 1});

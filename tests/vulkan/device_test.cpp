@@ -1,4 +1,4 @@
-// Devices that are listed, opened, and refused.
+// Listing, opening and refusing devices.
 #include "vulkan/hooks.h"
 #include "vulkan/log_book.h"
 #include "vulkan/small_world.h"
@@ -39,7 +39,7 @@ void hide(VkPhysicalDeviceFeatures2& features, VkStructureType type, VkBool32 T:
 
 }  // namespace
 
-TEST_F(VulkanDevice, allAreListedWithWhatTheyAre) {
+TEST_F(VulkanDevice, allDevicesAreDescribed) {
     const auto devices = vulkan::listDevices();
     ASSERT_TRUE(devices) << devices.error().message;
     ASSERT_FALSE(devices->empty());
@@ -67,14 +67,14 @@ TEST_F(VulkanDevice, opensByIndexAndByPartOfTheName) {
     EXPECT_TRUE(open(""));
 }
 
-TEST_F(VulkanDevice, aNumberThatIsNoIndexIsPartOfAName) {
+TEST_F(VulkanDevice, aNumberThatIsNotAnIndexMayBePartOfAName) {
     hooks().properties = [](VkPhysicalDeviceProperties& p) { std::strcpy(p.deviceName, "Imaginary RTX 3090"); };
     const auto device = open("3090");
     ASSERT_TRUE(device) << device.error().message;
     EXPECT_EQ(device->info().name, "Imaginary RTX 3090");
 }
 
-// On a list of several, registered as both.vulkan: each in turn is the GPU, whatever its place.
+// With several drivers (registered as both.vulkan): each in turn claims to be the GPU, whatever its index.
 TEST_F(VulkanDevice, aGpuIsChosenBeforeSoftware) {
     const auto devices = *vulkan::listDevices();
     for (const vulkan::DeviceInfo& gpu : devices) {
@@ -90,7 +90,7 @@ TEST_F(VulkanDevice, aGpuIsChosenBeforeSoftware) {
     }
 }
 
-TEST_F(VulkanDevice, anUnknownNameIsAnsweredWithTheKnownOnes) {
+TEST_F(VulkanDevice, anUnknownNameListsTheKnownOnes) {
     const auto devices = *vulkan::listDevices();
     for (const char* name : {"no such GPU", "99", "-1", "0x"}) {
         const auto device = open(name);
@@ -100,7 +100,7 @@ TEST_F(VulkanDevice, anUnknownNameIsAnsweredWithTheKnownOnes) {
     }
 }
 
-TEST_F(VulkanDevice, aLoaderThatKnowsNothingIsNoLoader) {
+TEST_F(VulkanDevice, aLoaderWithoutFunctionsIsRefused) {
     vulkan::OpenDesc desc;
     desc.getInstanceProcAddr = [](VkInstance, const char*) -> PFN_vkVoidFunction { return nullptr; };
     for (const bool validation : {false, true}) {
@@ -109,7 +109,7 @@ TEST_F(VulkanDevice, aLoaderThatKnowsNothingIsNoLoader) {
     }
 }
 
-TEST_F(VulkanDevice, withoutADriverThereIsASentence) {
+TEST_F(VulkanDevice, withoutADriverThereIsAMessage) {
     const char* const old = std::getenv("VK_DRIVER_FILES");
     const std::string before = old ? old : "";
     ::setenv("VK_DRIVER_FILES", "/nonexistent/driver.json", 1);
@@ -178,7 +178,7 @@ TEST_F(VulkanDevice, withoutComputeThereIsNoDevice) {
     expectRefused(open(""), "compute");
 }
 
-TEST_F(VulkanDevice, debugFunctionsThatAreNotThereAreNotCalled) {
+TEST_F(VulkanDevice, missingDebugFunctionsAreNotCalled) {
     hooks().hidden = "DebugUtils";
     const auto device = open("");
     ASSERT_TRUE(device) << device.error().message;
@@ -186,7 +186,7 @@ TEST_F(VulkanDevice, debugFunctionsThatAreNotThereAreNotCalled) {
     EXPECT_TRUE(vulkan::makeField(log, *device, world.desc, world.desc));
 }
 
-TEST_F(VulkanDevice, rayQueryIsOnlyThereWhereItIsWanted) {
+TEST_F(VulkanDevice, rayQueryIsOnlyEnabledIfRequested) {
     vulkan::OpenDesc desc;
     desc.rayQuery = false;
     const auto device = vulkan::Device::open(log, desc);

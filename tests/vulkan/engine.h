@@ -21,10 +21,10 @@ struct EngineDesc {
     bool scalarBlockLayout = true;
     bool storageImageExtendedFormats = true;
     bool rayQuery = false;
-    bool debugUtils = true;  ///< without it validation messages are not seen
+    bool debugUtils = true;  ///< required to see validation messages
 };
 
-/// A buffer of the engine's, mapped, with an address.
+/// A mapped buffer of the engine, with a device address.
 struct EngineBuffer {
     VkBuffer buffer = VK_NULL_HANDLE;
     VkDeviceMemory memory = VK_NULL_HANDLE;
@@ -39,8 +39,8 @@ struct EngineBuffer {
     vulkan::BufferRange range() const { return {address, bytes}; }
 };
 
-/// A program with an instance, a device and command buffers of its own, under the validation layer with
-/// synchronisation validation; its messages fail the test when the engine goes.
+/// A program with its own instance, device and command buffers, under the validation layer with synchronisation
+/// validation. If there are messages, the destructor fails the test.
 class Engine {
 public:
     explicit Engine(const EngineDesc& desc = {});
@@ -50,7 +50,7 @@ public:
 
     vulkan::AdoptDesc adoptDesc() const;
 
-    /// Records and submits without waiting, so that submits follow one another in the queue.
+    /// Records and submits without waiting, so that submissions queue up.
     void submit(const std::function<void(VkCommandBuffer)>& record);
     void wait();
     void run(const std::function<void(VkCommandBuffer)>& record) {

@@ -1,5 +1,5 @@
-// What goes wrong below the library: lost devices, no memory, refused pipelines. Always a Result, never a crash, never
-// a leak, and the CPU backend goes on.
+// Faults below the library: lost devices, no memory, refused pipelines. The result is always an error, never a crash or
+// a leak, and the CPU backend still works.
 #include "support/field_setup.h"
 #include "support/probes.h"
 #include "vulkan/hooks.h"
@@ -27,7 +27,7 @@ protected:
         return *opened;
     }
 
-    // Calls `work` with one failing call after the other until none is left to fail. What fails must say so.
+    // Runs `work` repeatedly, failing one call after the other until it makes no more. Each failure must be reported.
     template <class Work>
     void failEachCall(VkResult result, const std::string& only, ErrorCode expected, const Work& work) {
         const int before = hooks().liveObjects();
@@ -51,7 +51,7 @@ protected:
     const SmallWorld world;
 };
 
-// Any Result without its value.
+// A Result without its value.
 template <class T>
 Result<void> only(const Result<T>& result) {
     if (!result) return result.error();
@@ -86,7 +86,7 @@ void expectTracerLost(const Tracer& tracer, const Ray& ray) {
 
 }  // namespace
 
-// What the CPU makes of rays that a GPU traces ends with the GPU's error: no black light, no black picture.
+// CPU passes on rays traced by a GPU end with the GPU's error, not with black light or a black picture.
 TEST_F(VulkanFaults, whatTheCpuDoesWithRaysOfALostDeviceFails) {
     const vulkan::Device device = open();
     for (const char* lamps : {"sun", "none"}) {
@@ -152,7 +152,7 @@ TEST_F(VulkanFaults, aLostDeviceStaysLostAndNothingCrashes) {
             expectLost(updated.error());
             ASSERT_TRUE(hooks().failed());
 
-            // The driver answers again, but the device is gone, and nothing more is submitted to it.
+            // The driver works again, but the device is lost, and nothing more may be submitted to it.
             const int submits = hooks().submits;
             const std::vector<RayDatum> rays(18 * 16);
             const auto fed = field->update(rays);
@@ -183,7 +183,7 @@ TEST_F(VulkanFaults, aLostDeviceStaysLostAndNothingCrashes) {
             EXPECT_EQ(hooks().submits, submits);
             expectCpuWorks(log, world);
         }
-        // Another device of the same process does not notice.
+        // Another device of the process is not affected.
         EXPECT_TRUE(vulkan::makeField(log, device, world.desc, world.desc));
     }
 }
@@ -224,7 +224,7 @@ TEST_F(VulkanFaults, aFieldSurvivesEveryRefusedAllocation) {
     const vulkan::Device device = open();
     const auto tracer = vulkan::makeTracer(log, device, world.scene, world.pose);
     ASSERT_TRUE(tracer);
-    // Compiles what is compiled once, so that objects can be counted.
+    // Compiles all pipelines first, so that objects can be counted.
     ASSERT_TRUE(vulkan::makeField(log, device, world.desc, world.desc)->update(**tracer, world.lighting));
     const auto work = [&]() -> Result<void> {
         auto field = vulkan::makeField(log, device, world.desc, world.desc);
@@ -290,7 +290,7 @@ TEST_F(VulkanFaults, pipelinesThatDoNotCompileAreErrorsAndAreTriedAgain) {
     const vulkan::Device device = open();
     const auto tracer = vulkan::makeTracer(log, device, world.scene, world.pose);
     ASSERT_TRUE(tracer);
-    // Each attempt compiles one pipeline more than the one before.
+    // Each attempt compiles one more pipeline than the one before.
     int refusals = 0;
     for (; refusals < 20; ++refusals) {
         auto field = vulkan::makeField(log, device, world.desc, world.desc);
@@ -313,7 +313,7 @@ TEST_F(VulkanFaults, pipelinesThatDoNotCompileAreErrorsAndAreTriedAgain) {
     EXPECT_TRUE(finite(field->irradiance(world.query())));
 }
 
-TEST_F(VulkanFaults, theGuardOfAFailedQueryIsNotForgotten) {
+TEST_F(VulkanFaults, theGuardOfAFailedQueryIsAppliedLater) {
     const vulkan::Device device = open();
     const auto tracer = vulkan::makeTracer(log, device, world.scene, world.pose);
     auto field = vulkan::makeField(log, device, world.desc, world.desc);
@@ -330,7 +330,7 @@ TEST_F(VulkanFaults, theGuardOfAFailedQueryIsNotForgotten) {
     EXPECT_TRUE(std::isnan(field->irradiance(world.query()).x));
     hooks().failCall(0, VK_SUCCESS);
     EXPECT_EQ(field->irradiance(world.query()), other->irradiance(world.query()));
-    // Nor those of a picture that failed.
+    // Nor the settings of a picture that failed.
     for (Field* f : {&*field, &*other}) changeSettings(*f, [&](FieldSettings& s) { s.guard = LeakGuard::moments; });
     PictureDesc picture;
     picture.camera = world.pose.cameras.front();

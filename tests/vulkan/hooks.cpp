@@ -7,7 +7,7 @@ namespace probegi::test {
 
 namespace {
 
-// Whether this call is one that fails.
+// Whether this call must fail.
 bool refused(std::string_view function) {
     Hooks& h = hooks();
     const bool counts = h.failing.empty() ? function == "vkAllocateMemory" || function == "vkCreateBuffer" ||
@@ -89,7 +89,7 @@ VKAPI_ATTR VkResult VKAPI_CALL queueSubmit(VkQueue queue, std::uint32_t count, c
     ++hooks().submits;
     return refused("vkQueueSubmit") ? hooks().failure : vkQueueSubmit(queue, count, infos, fence);
 }
-// Waits in any case: what a lost device did not finish does not run on behind the test's back.
+// Always waits, so that unfinished work of a "lost" device does not run on during the test.
 VKAPI_ATTR VkResult VKAPI_CALL waitForFences(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all,
                                              std::uint64_t timeout) {
     const VkResult result = vkWaitForFences(device, count, fences, all, timeout);

@@ -8,17 +8,17 @@
 
 namespace probegi::test {
 
-/// A driver that misbehaves as told: stands between the library and the loader, counts objects and memory, and fails
-/// calls. One for the process, since Vulkan's functions carry no user data; reset() at the start of a test.
+/// Simulates a faulty driver: intercepts calls between the library and the loader, counts objects and memory, and fails
+/// calls. One for the process, since Vulkan's functions have no user data; call reset() at the start of a test.
 struct Hooks {
-    /// The n-th call from now on (1 is the next) of the allocating functions fails, as those after it do where `stays`.
-    /// These are vkAllocateMemory, vkCreateBuffer and vkCreateImage, or all functions whose name begins with `only`.
+    /// Fails the n-th allocating call from now on (1 is the next), and with `stays` all later ones. Allocating calls
+    /// are vkAllocateMemory, vkCreateBuffer and vkCreateImage, or all functions whose names begin with `only`.
     void failCall(int n, VkResult result, const std::string& only = {}, bool stays = false);
     /// Whether a call has failed since failCall().
     bool failed() const noexcept { return failures > 0; }
 
     void reset() { *this = Hooks(); }
-    /// Objects of all kinds and allocations that are alive.
+    /// Live objects of all kinds and allocations.
     int liveObjects() const;
     std::string liveText() const;
 
@@ -36,7 +36,7 @@ struct Hooks {
     std::function<void(VkFormat, VkFormatProperties&)> formats;
     std::function<void(VkQueueFamilyProperties&)> families;
     std::function<void(VkPhysicalDeviceFeatures2&)> features;
-    std::string hidden;  ///< functions whose name contains it are not there; empty: none
+    std::string hidden;  ///< functions whose names contain it are missing; empty: none
     int submits = 0;
 };
 

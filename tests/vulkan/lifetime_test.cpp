@@ -1,4 +1,4 @@
-// What is made and destroyed at run time leaves nothing behind, and says truly what it holds.
+// Objects created and destroyed at run time leave nothing behind and report the right amount of memory.
 #include "support/field_setup.h"
 #include "support/probes.h"
 #include "vulkan/hooks.h"
@@ -20,7 +20,7 @@ protected:
         return *vulkan::Device::open(log, desc);
     }
 
-    // Runs `cycle` so often and expects as many objects and bytes afterwards as after the first time.
+    // Runs `cycle` repeatedly, and expects as many objects and bytes at the end as after the first run.
     template <class Cycle>
     void expectNoGrowth(int cycles, const Cycle& cycle) {
         cycle();
@@ -35,7 +35,7 @@ protected:
         EXPECT_EQ(hooks().allocatedBytes(), bytes);
     }
 
-    // Between what was asked for and what drivers round up to.
+    // Between the requested size and what drivers round it up to.
     void expectBytes(std::size_t reported, VkDeviceSize allocated, std::size_t pieces) {
         EXPECT_LE(reported, allocated);
         EXPECT_GE(reported + pieces * 65536, allocated);
@@ -102,7 +102,7 @@ TEST_F(VulkanLifetime, devicesLeaveNothing) {
     EXPECT_EQ(hooks().liveObjects(), 0) << hooks().liveText();
 }
 
-TEST_F(VulkanLifetime, aVolumeTellsItsBytes) {
+TEST_F(VulkanLifetime, aVolumeReportsItsBytes) {
     const vulkan::Device device = open();
     FieldSetup desc = world.desc;
     desc.volumes[0].counts = {16, 12, 16};
@@ -118,7 +118,7 @@ TEST_F(VulkanLifetime, aVolumeTellsItsBytes) {
     EXPECT_GE(memory.visibilityBytes, 16u * 12u * 16u * 18u * 18u * 4u);
 }
 
-TEST_F(VulkanLifetime, scenesAndLightsTellTheirBytes) {
+TEST_F(VulkanLifetime, scenesAndLightsReportTheirBytes) {
     const vulkan::Device device = open();
     const Scene scene = *makeBuiltinScene("sphere");
     const ScenePose pose = poseAt(scene);

@@ -29,7 +29,7 @@ std::vector<RayDatum> randomRays(const FieldDesc& desc) {
     return rays;
 }
 
-// The same rays on both backends give the same probes.
+// Expects the same probes on both backends from the same rays.
 void expectSameAsCpu(const FieldSetup& desc, std::span<const int> probes, const vulkan::Device& device = testDevice()) {
     auto made = vulkan::makeField(testContext(), device, desc, desc);
     ASSERT_TRUE(made) << made.error().message;
@@ -80,7 +80,7 @@ TEST(VulkanLimits, fewAndManyRaysAgreeWithTheCpu) {
     }
 }
 
-// More groups of four probes than one axis of a dispatch may have.
+// More groups of four probes than one axis of a dispatch allows.
 TEST(VulkanLimits, aQuarterOfAMillionProbesAgreeWithTheCpu) {
     const FieldSetup desc = smallest({96, 96, 33});
     const int last = probeCount(desc) - 1;
@@ -89,7 +89,7 @@ TEST(VulkanLimits, aQuarterOfAMillionProbesAgreeWithTheCpu) {
     expectSameAsCpu(desc, probes);
 }
 
-// A device with small images: 8 x 8 tiles of 6 texels a layer, two layers.
+// A device with small images: two layers of 8 x 8 tiles of 6 texels.
 TEST(VulkanLimits, poolsOfSeveralLayersAgreeWithTheCpuAndLargerOnesAreRefused) {
     hooks().reset();
     hooks().properties = [](VkPhysicalDeviceProperties& p) {
@@ -132,7 +132,7 @@ TEST(VulkanLimits, moreRaysThanCanBeNumberedAreRefused) {
     EXPECT_NE(volume.error().message.find("raysPerProbe"), std::string::npos) << volume.error().message;
 }
 
-// Either there is room, or a sentence; never a request that the driver must not be given.
+// Either there is enough memory or an error, but never an invalid request to the driver.
 TEST(VulkanLimits, sixteenMillionProbesAreMadeOrRefused) {
     FieldSetup desc = smallest({256, 256, 256});
     for (const auto& [irradiance, visibility] : {std::pair{4, 4}, {8, 16}, {32, 64}}) {

@@ -11,7 +11,7 @@
 
 namespace probegi::test {
 
-/// A context that keeps what is logged. Messages of the validation layer are failures.
+/// A context that records the log. Messages of the validation layer fail the test.
 class LogBook {
 public:
     LogBook() : m_lines(std::make_shared<std::vector<std::string>>()) {
@@ -27,7 +27,7 @@ public:
     LogBook& operator=(const LogBook&) = delete;
 
     operator const Context&() const noexcept { return *context; }
-    /// Lines with a text in them.
+    /// Number of lines that contain a text.
     int count(std::string_view text) const {
         int found = 0;
         for (const std::string& line : *m_lines) found += line.find(text) != std::string::npos;

@@ -4,8 +4,8 @@
 
 namespace probegi::test {
 
-/// A compute shader of an engine's that includes probegi/query.glsl (shaders/query_include.comp). Set 0: questions and
-/// answers; set 1: the volume's bindings.
+/// An engine's compute shader that includes probegi/query.glsl (shaders/query_include.comp). Set 0: queries and
+/// results; set 1: the volume's bindings.
 class QueryShader {
 public:
     static constexpr std::uint32_t kFirstBinding = 3;  // PROBEGI_BINDING of the shader
@@ -17,7 +17,7 @@ public:
     QueryShader& operator=(const QueryShader&) = delete;
 
     VkDescriptorSet volumeSet() const noexcept { return m_sets[1]; }
-    /// Dispatches, and orders what comes before and after it among compute shaders.
+    /// Records the dispatch, with barriers to compute shaders before and after it.
     void record(VkCommandBuffer commands, std::uint32_t count) const;
 
 private:

@@ -1,4 +1,4 @@
-// Rays and ray data that no engine should send, and scenes that move.
+// Invalid rays and ray data, and moving scenes.
 #include <limits>
 #include <random>
 
@@ -49,7 +49,7 @@ std::vector<Ray> randomRays(const Bounds& bounds, int count) {
     return rays;
 }
 
-// A box that flies through a room and turns.
+// A box that moves through a room and turns.
 Scene animatedScene() {
     Scene scene = *makeBuiltinScene("cornell");
     const ScenePose pose = poseAt(scene);
@@ -78,7 +78,7 @@ Scene animatedScene() {
     return scene;
 }
 
-// Closest hits by a scene that an engine would hold.
+// Closest hits in a GpuScene, as an engine would have it.
 std::vector<Hit> hitsOf(const vulkan::GpuScene& scene, std::span<const Ray> rays) {
     vulkan::Exchange exchange(testDevice());
     exchange.begin(rays.size_bytes(), rays.size() * sizeof(Hit));
@@ -127,7 +127,7 @@ TEST_F(VulkanRays, oddRayDataLeavesTheAtlasesFinite) {
         const glm::vec3 e = field.irradiance(world.query()), expected = onCpu.irradiance(world.query());
         EXPECT_TRUE(finite(e));
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(e[c], expected[c], 1e-2f * std::max(1.0f, expected[c])) << c;
-        // All of it not a number, for every ray.
+        // NaN everywhere, for every ray.
         const std::vector<RayDatum> nothing(rays.size(), {glm::vec3(kNan), kNan});
         ASSERT_TRUE(field.update(nothing));
         expectFinite(field);
@@ -152,7 +152,7 @@ TEST_F(VulkanRays, oddRaysHitNothing) {
         odd[odd.size() - 2].direction = glm::vec3(0.0f);
         odd.back().far = -1.0f;
         const std::size_t refused = odd.size();
-        odd.push_back(good);  // the ray itself is fine
+        odd.push_back(good);  // the ray itself is valid
         std::vector<Hit> hits(odd.size());
         std::vector<std::uint8_t> blocked(odd.size());
         (*tracer)->closestHits(odd, hits).value();
@@ -163,7 +163,7 @@ TEST_F(VulkanRays, oddRaysHitNothing) {
         }
         EXPECT_TRUE(hits.back().valid());
         EXPECT_EQ(blocked.back(), 1);
-        // Whatever huge numbers hit: they end.
+        // Rays with huge numbers may hit anything, but must terminate.
         for (Ray& ray : odd) ray = good;
         for (std::size_t i = 0; i < odd.size(); ++i) {
             odd[i].origin[int(i % 3)] = kOdd[i % std::size(kOdd)];
@@ -174,7 +174,7 @@ TEST_F(VulkanRays, oddRaysHitNothing) {
     }
 }
 
-TEST_F(VulkanRays, movedInstancesAreWhereAFreshSceneHasThem) {
+TEST_F(VulkanRays, movedInstancesAgreeWithANewScene) {
     const Scene scene = animatedScene();
     ASSERT_TRUE(validate(scene));
     const ScenePose start = poseAt(scene, 0.0f);

@@ -38,7 +38,7 @@ protected:
     EngineBuffer answers() { return engine.makeBuffer(queries.size() * sizeof(glm::vec3)); }
     std::uint32_t count() const { return std::uint32_t(queries.size()); }
 
-    // What the CPU makes of the same rays.
+    // The CPU's result for the same rays.
     std::vector<glm::vec3> onCpu(int updates, LeakGuard guard) const {
         Field field = *Field::create(log, world.desc, world.desc);
         for (int i = 0; i < updates; ++i) EXPECT_TRUE(field.update(rays));
@@ -116,7 +116,7 @@ TEST_F(VulkanRecorded, updatesAndQueriesInSubmitsOfTheirOwn) {
     expectEqual(result, onCpu(3, LeakGuard::moments), 2e-3f);
 }
 
-TEST_F(VulkanRecorded, lightsThatChangeAreThoseThatWereMade) {
+TEST_F(VulkanRecorded, changedLightsEqualNewOnes) {
     const vulkan::Device device = adopt();
     vulkan::GpuScene scene = *vulkan::GpuScene::create(log, device, world.scene, world.pose);
     PlacedLight lamp;
@@ -153,8 +153,8 @@ TEST_F(VulkanRecorded, lightsThatChangeAreThoseThatWereMade) {
     EXPECT_NE(valuesOf(before), valuesOf(after));
 }
 
-// The Cornell box' lamp slides to another place and grows: probes look for it where it is.
-TEST_F(VulkanRecorded, lampsThatMoveAreLookedForWhereTheyAre) {
+// The Cornell box's lamp moves and grows: probes must sample it where it is.
+TEST_F(VulkanRecorded, movingLampsAreSampledWhereTheyAre) {
     const vulkan::Device device = adopt();
     Scene moving = world.scene;
     int lamp = 0;
@@ -175,7 +175,7 @@ TEST_F(VulkanRecorded, lampsThatMoveAreLookedForWhereTheyAre) {
             EXPECT_TRUE(volume.recordUpdate(commands, scene, none));
             EXPECT_TRUE(volume.recordQuery(commands, questions.address, result.address, count()));
         });
-        // What was merged stays where it was, for looks as for rays.
+        // Merged meshes stay where they were, for emitter samples as for rays.
         const auto tracer = *makeEmbreeTracer(log, moving, poseAt(moving, movable ? 1.0f : 0.0f));
         Field field = *Field::create(log, world.desc, world.desc);
         EXPECT_TRUE(field.update(*tracer, Lighting{}));
@@ -185,7 +185,7 @@ TEST_F(VulkanRecorded, lampsThatMoveAreLookedForWhereTheyAre) {
     }
 }
 
-TEST_F(VulkanRecorded, theIncludeAnswersAsThePassDoes) {
+TEST_F(VulkanRecorded, theIncludeGivesTheSameAsThePass) {
     const vulkan::Device device = adopt();
     GpuField volume = *GpuField::create(device, world.desc, world.desc);
     const EngineBuffer byPass = answers(), byInclude = answers();
@@ -203,7 +203,7 @@ TEST_F(VulkanRecorded, theIncludeAnswersAsThePassDoes) {
     expectEqual(byInclude, valuesOf(byPass), 1e-5f);
 }
 
-// Without an update or a query of the library's in between.
+// Without an update or a query by the library in between.
 TEST_F(VulkanRecorded, theSettingsReachShadersOfTheEngine) {
     const vulkan::Device device = adopt();
     GpuField volume = *GpuField::create(device, world.desc, world.desc);
@@ -227,9 +227,9 @@ TEST_F(VulkanRecorded, theSettingsReachShadersOfTheEngine) {
     const auto unguarded = askedWith(LeakGuard::none, true);
     expectEqual(answered, onCpu(1, LeakGuard::none), 2e-3f);
     EXPECT_NE(unguarded, guarded);
-    EXPECT_EQ(askedWith(LeakGuard::moments, false), unguarded);  // until a pass hands it over
+    EXPECT_EQ(askedWith(LeakGuard::moments, false), unguarded);  // until a pass uploads it
     EXPECT_EQ(askedWith(LeakGuard::moments, true), guarded);
-    // Cleared probes keep the guard that was set.
+    // Clearing the probes keeps the guard.
     engine.run([&](VkCommandBuffer commands) {
         changeSettings(volume, [&](FieldSettings& s) { s.guard = LeakGuard::none; });
         EXPECT_TRUE(volume.recordClear(commands));

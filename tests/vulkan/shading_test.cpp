@@ -1,4 +1,4 @@
-// Deferred shading and tone map in an engine's own command buffers: the layers that the CPU's picture has.
+// Deferred shading and tone mapping in an engine's own command buffers, against the layers of the CPU's picture.
 #include <cmath>
 
 #include "kernels/screen/pinhole.h"
@@ -12,7 +12,7 @@ namespace {
 
 using vulkan::ShadingSample;
 
-/// What the CPU's tracer sees through each pixel's middle, as an engine would rasterise it.
+/// Surfaces at the pixels' centres by the CPU's tracer, as an engine would rasterise them.
 std::vector<ShadingSample> rasterised(const Tracer& tracer, const PictureDesc& desc) {
     const kernels::PinholeCamera camera = kernels::makePinhole(
         desc.camera.position, desc.camera.forward, desc.camera.up, desc.camera.yfov, desc.width, desc.height);
@@ -88,7 +88,7 @@ TEST(VulkanShading, samplesOfAnEngineLookLikeTheCpusPicture) {
     EXPECT_GT(brightest, 0.1f);
 }
 
-TEST(VulkanShading, tonesInAnEnginesBuffersAreTheLibrarys) {
+TEST(VulkanShading, toneMappingInAnEnginesBuffersIsTheLibrarys) {
     hooks().reset();
     LogBook log;
     Engine engine;
@@ -128,7 +128,7 @@ TEST(VulkanShading, objectsOfTwoDevicesAreRefused) {
     });
 }
 
-// Another level: the probes forget, and the first update after that is a first one.
+// As for a new level: the probes are cleared, and the next update counts as the first.
 TEST(VulkanShading, aClearedVolumeBeginsAnew) {
     hooks().reset();
     const SmallWorld world;

@@ -13,7 +13,7 @@ struct SmallWorld {
     explicit SmallWorld(const char* name = "cornell") : scene(*makeBuiltinScene(name)) {
         pose = poseAt(scene);
         lighting = {pose.lights, scene.sky};
-        // Within the walls.
+        // Inside the walls.
         desc.volumes[0].counts = {3, 2, 3};
         desc.volumes[0].origin = pose.bounds.lower + 0.15f * pose.bounds.size();
         desc.volumes[0].spacing = 0.7f * pose.bounds.size() / glm::vec3(desc.volumes[0].counts - 1);
@@ -36,7 +36,7 @@ struct SmallWorld {
     FieldSetup desc;
 };
 
-/// The kinds of tracer that a device can run.
+/// The kinds of tracer that a device supports.
 inline std::vector<vulkan::TracerKind> tracerKinds(const vulkan::Device& device) {
     std::vector<vulkan::TracerKind> kinds{vulkan::TracerKind::bvh};
     if (device.rayQuery()) kinds.push_back(vulkan::TracerKind::rayQuery);

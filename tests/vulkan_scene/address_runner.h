@@ -9,16 +9,16 @@
 
 namespace probegi::test {
 
-/// Dispatches compute shaders that reach their data by buffer device address, on the first Vulkan device.
+/// Dispatches compute shaders that access data by buffer device address, on the first Vulkan device.
 class AddressRunner {
 public:
-    /// Errors: unsupported, when there is no usable Vulkan device.
+    /// Errors: unsupported (no usable Vulkan device).
     static Result<AddressRunner> create();
     AddressRunner(AddressRunner&&) noexcept;
     AddressRunner& operator=(AddressRunner&&) noexcept;
     ~AddressRunner();
 
-    /// Copies values to a new buffer and returns its address; empty arrays get a small buffer.
+    /// Copies values to a new buffer and returns its address. Empty arrays also get a buffer.
     template <class T>
     std::uint64_t upload(std::span<const T> values) {
         return uploadBytes(std::as_bytes(values));
@@ -27,7 +27,7 @@ public:
     std::uint64_t upload(const std::vector<T>& values) {
         return upload(std::span<const T>(values));
     }
-    /// What an uploaded buffer holds now.
+    /// The current contents of an uploaded buffer.
     template <class T>
     void download(std::uint64_t address, std::span<T> out) const {
         downloadBytes(address, std::as_writable_bytes(out));

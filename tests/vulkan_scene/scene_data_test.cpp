@@ -1,4 +1,4 @@
-// What packScene stores, and where.
+// The records that packScene writes.
 #include "vulkan/scene/scene_data.h"
 
 #include "tracer/tracer_scene.h"

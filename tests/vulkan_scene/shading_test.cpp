@@ -33,7 +33,7 @@ std::vector<std::uint8_t> noise(int width, int height, std::mt19937& random, int
     return rgba;
 }
 
-/// A texture seen through a random uv transform, with the wraps, filter and uv set that follow from `variant`.
+/// A texture with a random uv transform, and with wraps, filter and uv set chosen by `variant`.
 TextureRef randomRef(int image, int variant, std::mt19937& random) {
     std::uniform_real_distribution<float> uniform(-2.0f, 2.0f);
     TextureRef ref;
@@ -68,8 +68,8 @@ Material randomMaterial(TestScene& s, int variant, std::mt19937& random) {
     return m;
 }
 
-/// A few large triangles with normals tilted by up to half a radian; every third mesh has no normals, every other one
-/// tangents.
+/// A few large triangles with normals tilted by up to half a radian; every third mesh has no normals, every second one
+/// has tangents.
 Primitive randomPrimitive(int material, std::mt19937& random) {
     Primitive p;
     p.material = material;
@@ -117,7 +117,7 @@ Lighting someLighting() {
     return lighting;
 }
 
-/// Everything that C++ says about a question.
+/// The C++ results for a query.
 struct CppSide {
     const SceneGeometry& geometry;
     const SurfaceMesh& mesh(const Question& q) const {
@@ -131,7 +131,7 @@ struct CppSide {
         const Placement& p = geometry.placements[std::size_t(q.instance)];
         return shadeHit(mesh(q), geometry.materials, hit, q.direction, p.toWorld, p.normalToWorld, q.spread);
     }
-    /// The texture's alpha less what it must reach.
+    /// The texture's alpha minus the cutoff.
     float alphaMargin(const Question& q) const {
         const SurfaceTriangle& triangle = mesh(q).triangles[std::size_t(q.primitive)];
         const SurfaceMaterial& material = geometry.materials[triangle.material];
@@ -141,8 +141,7 @@ struct CppSide {
     }
 };
 
-/// Hits spread over all meshes. Rays that graze their triangle are left out: which side they meet is for rounding to
-/// say.
+/// Hits spread over all meshes. Rays that graze their triangle are left out: rounding decides which side they hit.
 std::vector<Question> randomQuestions(const SceneGeometry& geometry) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
@@ -204,7 +203,7 @@ std::vector<Answer> ask(AddressRunner& runner, const kernels::SceneAddresses& sc
     return answers;
 }
 
-/// Relative to the larger of 1 and the value.
+/// Expects a small difference relative to the larger of 1 and the value.
 void expectClose(glm::vec3 actual, glm::vec3 expected, const char* what) {
     EXPECT_LE(glm::distance(actual, expected), kTolerance * std::max(1.0f, glm::length(expected))) << what;
 }
@@ -222,7 +221,7 @@ void expectSame(const Answer& a, const Surface& s) {
     EXPECT_EQ(a.backface != 0, s.backface);
 }
 
-/// The shader's answers on the random scene: one dispatch for all tests.
+/// The shader's results on the random scene, from one dispatch for all tests.
 struct Asked {
     TestScene scene = randomScene();
     Lighting lighting = someLighting();
@@ -284,7 +283,7 @@ TEST(SceneShader, MaskedCandidatesPassWhereTheirAlphaReachesTheCutoff) {
         }
         const float margin = cpp.alphaMargin(q);
         (margin >= 0.0f ? passed : rejected) += 1;
-        // Within the tolerance rounding decides.
+        // Within the tolerance, rounding decides.
         EXPECT_TRUE(passes == (margin >= 0.0f) || std::abs(margin) < kTolerance) << margin;
     }
     EXPECT_GT(passed, 1000);

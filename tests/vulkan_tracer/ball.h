@@ -1,4 +1,4 @@
-// The wall of a ball: what both tracers of it have in common, one text for GLSL and C++.
+// The wall of a ball: code shared by its two tracers, in GLSL and C++.
 #ifndef PROBEGI_TESTS_BALL_H
 #define PROBEGI_TESTS_BALL_H
 
@@ -11,7 +11,7 @@ struct Ball {
     float radius;
 };
 
-// Where a ray meets the wall first, metres along it between near and far; negative: nowhere.
+// Distance in metres to the first hit of the wall between near and far; negative: none.
 KERNEL_FN float ballDistance(Ball ball, vec3 origin, vec3 direction, float near, float far) {
     const vec3 o = origin - ball.centre;
     const float along = dot(o, direction);
@@ -23,7 +23,7 @@ KERNEL_FN float ballDistance(Ball ball, vec3 origin, vec3 direction, float near,
     return exit > near && exit < far ? exit : -1.0f;
 }
 
-// Unit, outwards.
+// Unit vector, outwards.
 KERNEL_FN vec3 ballNormal(Ball ball, vec3 position) {
     return normalize(position - ball.centre);
 }

@@ -1,4 +1,4 @@
-// A tracer that no file of the library knows lights a field, on both backends and with the same answer.
+// A tracer unknown to the library lights a field on both backends, with the same result.
 #include <gmock/gmock.h>
 
 #include <glm/geometric.hpp>
@@ -17,7 +17,7 @@ namespace {
 constexpr float kAlbedo = 0.5f, kEmission = 1.5f;
 constexpr float kPi = 3.14159265f;
 
-/// A furnace, and triangles that no ray meets: they only say how large the ball is.
+/// A furnace, and triangles that only define the ball's size; rays do not hit them.
 Scene furnace() {
     Scene scene;
     scene.materials.resize(1);
@@ -49,7 +49,7 @@ protected:
         desc.raysPerProbe = 64;
         return desc;
     }
-    // Light of the field at points within the ball, after some updates of it with the tracer.
+    // Light of the field at points in the ball, after some updates with the tracer.
     std::vector<glm::vec3> light(Field field, const Tracer& tracer) const {
         Lighting lighting;
         PlacedLight lamp;

@@ -5,16 +5,16 @@
 
 namespace probegi::test {
 
-/// In the middle of the bounds, as wide as they are at their narrowest.
+/// A ball in the middle of the bounds, as wide as their narrowest side.
 inline kernels::Ball ballIn(const Bounds& bounds) {
     const glm::vec3 size = bounds.size();
     return {bounds.centre(), 0.5f * std::min({size.x, size.y, size.z})};
 }
 
-/// The GPU's tracer of the ball in the scene's bounds: what would be a row of src/vulkan/tracers/scene_tracers.cpp.
+/// The GPU tracer of the ball in the scene's bounds: would be a row in src/vulkan/tracers/scene_tracers.cpp.
 const vulkan::SceneTracerType& ballSceneTracer();
 
-/// The CPU's.
+/// The CPU tracer.
 class BallTracer final : public Tracer {
 public:
     BallTracer(kernels::Ball ball, const Material& material) : m_ball(ball), m_material(material) {}

@@ -1,4 +1,4 @@
-// The wall of a ball, of the scene's material 0 on both sides. Its block has the ball (BallSceneTracer::block).
+// The wall of a ball with the scene's material 0 on both sides. Its block contains the ball (BallSceneTracer::block).
 #ifndef PROBEGI_TESTS_TRACER_BALL_GLSL
 #define PROBEGI_TESTS_TRACER_BALL_GLSL
 

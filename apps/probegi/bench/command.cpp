@@ -56,7 +56,7 @@ void showProgress(std::string_view what, int round, int rounds) {
     std::fflush(stderr);
 }
 
-/// What a person reads, and what --json writes.
+/// A report as text for the terminal, and as --json writes it.
 struct Reported {
     std::string markdown, json;
 };
@@ -90,8 +90,7 @@ Result<void> bench(const BenchOptions& options) {
 void checkOptions(const CLI::App& command, const BenchOptions& options) {
     checkBackendOptions(command, options.backend);
     if (options.backend.kind == BackendKind::vulkan && options.growthMillion)
-        throw CLI::ValidationError("--growth-million",
-                                   "the table of growing volumes is measured on --backend cpu only");
+        throw CLI::ValidationError("--growth-million", "the growth table can be measured on --backend cpu only");
 }
 
 void addOptions(CLI::App& command, BenchOptions& options) {
@@ -111,9 +110,9 @@ void addOptions(CLI::App& command, BenchOptions& options) {
         ->type_name("WxH")
         ->check(parsedBy(parseSize))
         ->capture_default_str();
-    command.add_option("--json", options.json, "write the figures there too")->type_name("FILE");
-    auto* without = command.add_flag("--no-growth", options.noGrowth, "leave out the table of growing volumes");
-    command.add_flag("--growth-million", options.growthMillion, "and a volume of a million probes: 2 GB, minutes")
+    command.add_option("--json", options.json, "also write the figures as JSON")->type_name("FILE");
+    auto* without = command.add_flag("--no-growth", options.noGrowth, "leave out the growth table");
+    command.add_flag("--growth-million", options.growthMillion, "with a volume of a million probes: 2 GB, minutes")
         ->excludes(without);
 }
 

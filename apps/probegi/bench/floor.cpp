@@ -37,11 +37,11 @@ Triangles trianglesOf(const Scene& scene, const ScenePose& pose) {
     for (const Instance& instance : pose.instances)
         for (const Primitive& primitive : scene.meshes[std::size_t(instance.mesh)].primitives)
             append(all, primitive, instance.toWorld);
-    all.vertices.emplace_back();  // Embree reads 16 bytes of the last vertex
+    all.vertices.emplace_back();  // padding: Embree reads 16 bytes at the last vertex
     return all;
 }
 
-// Denormals count as zero, as Embree's manual asks for. The old mode comes back at the end.
+// Sets denormals to zero while it lives, as Embree's manual requires.
 class FlushDenormals {
 public:
     FlushDenormals() : m_before(_mm_getcsr()) { _mm_setcsr(m_before | 0x8040u); }

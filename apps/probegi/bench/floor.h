@@ -7,11 +7,11 @@
 
 namespace probegi::tool {
 
-/// The floor that everything is measured against: Embree alone, one rtcIntersect1 a ray, in order. All triangles of
-/// the pose lie in world space in one geometry; no alpha masks, no materials, hits are not looked at.
+/// The floor that everything is measured against: Embree alone, one rtcIntersect1 per ray, in order. All triangles of
+/// the pose are in world space in one geometry; there are no alpha masks or materials, and hits are not read.
 class RawEmbree {
 public:
-    /// @param robust  RTC_SCENE_FLAG_ROBUST, which ProbeGI's own tracer has; without it Embree is at its fastest
+    /// @param robust  RTC_SCENE_FLAG_ROBUST, which ProbeGI's own tracer sets; Embree is fastest without it
     /// Errors: outOfMemory.
     static Result<RawEmbree> create(const Scene& scene, const ScenePose& pose, int threads, bool robust);
     RawEmbree(RawEmbree&&) noexcept;

@@ -28,13 +28,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kWarmUpUpdates = 8;  // until the field holds light of several bounces
+constexpr int kWarmUpUpdates = 8;  // so that the field has light of several bounces
 
 double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// Everything that lasts from round to round.
+/// What all rounds share.
 struct GpuBench {
     Context context;
     vulkan::Device device;

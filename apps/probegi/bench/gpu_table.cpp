@@ -11,7 +11,7 @@ namespace probegi::tool {
 
 namespace {
 
-// Goals for a data-centre GPU of about 60 TFLOP/s without ray-tracing cores, milliseconds, at 22x14x32 probes of 144
+// Goals in milliseconds for a data-centre GPU of about 60 TFLOP/s without ray-tracing cores, for 22x14x32 probes of 144
 // rays and 1920x1080 points.
 constexpr double kBlendGoal = 0.05, kUpdateGoal = 1.5, kQueryGoal = 0.15;
 
@@ -35,12 +35,12 @@ bool isQuery(const std::string& pass) {
     return pass == "query";
 }
 
-// The weights of the blend's matrix product are part of it.
+// The weights of its matrix product count as part of the blend.
 bool isBlend(const std::string& pass) {
     return pass == "weights" || pass.starts_with("blend");
 }
 
-// A row for each pass, and the sums that have goals. A device without a clock has neither.
+// A row per pass, then the sums that have goals. Devices without timestamps have neither.
 void addPassRows(const GpuBenchResult& r, std::vector<GpuBenchRow>& rows) {
     if (r.rounds.empty() || r.rounds.front().passes.empty()) return;
     const auto sum = [&](const std::function<bool(const std::string&)>& chosen) {
@@ -71,7 +71,7 @@ std::vector<GpuBenchRow> gpuBenchRows(const GpuBenchResult& r) {
     return rows;
 }
 
-// The goals are about GPUs: software is not judged.
+// The goals are for GPUs: software devices get no verdict.
 std::string verdict(const GpuBenchResult& result, const GpuBenchRow& row) {
     if (!row.goal || result.type == "software") return {};
     return row.ms <= *row.goal ? "pass" : "miss";

@@ -22,7 +22,7 @@ std::vector<Ray> primaryRays(const PlacedCamera& camera, int width, int height) 
 }
 
 Result<std::vector<FieldQuery>> picturePoints(const Tracer& tracer, std::span<const Ray> rays) {
-    constexpr std::size_t kBatch = 65536;  // surfaces are large
+    constexpr std::size_t kBatch = 65536;  // bounds the memory for surfaces
     std::vector<FieldQuery> points;
     for (std::size_t begin = 0; begin < rays.size(); begin += kBatch) {
         const auto batch = rays.subspan(begin, std::min(kBatch, rays.size() - begin));

@@ -7,10 +7,10 @@
 
 namespace probegi::tool {
 
-/// Through the pixels' centres, row by row.
+/// Camera rays through the pixels' centres, row by row.
 std::vector<Ray> primaryRays(const PlacedCamera& camera, int width, int height);
 
-/// What a picture asks the field, in the order of its rays. Errors: those of the tracer.
+/// The queries of a picture's hits, in the order of its rays. Errors: those of the tracer.
 Result<std::vector<FieldQuery>> picturePoints(const Tracer& tracer, std::span<const Ray> rays);
 
 }  // namespace probegi::tool

@@ -14,8 +14,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kWarmUpUpdates = 8;           // until the field holds light of several bounces
-constexpr double kLeastGrowthRays = 320e3;  // of one sample: small volumes are updated several times
+constexpr int kWarmUpUpdates = 8;           // so that the field has light of several bounces
+constexpr double kLeastGrowthRays = 320e3;  // per sample: small volumes are updated several times
 
 double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -39,7 +39,7 @@ Result<Context> quietContext(int threads) {
     return Context::create(desc);
 }
 
-// Everything that lasts from round to round. Created at one address, where it stays.
+// What all rounds share. Not movable.
 class Bench {
 public:
     static Result<std::unique_ptr<Bench>> create(const LoadedSetup& setup, const BenchPlan& plan);
@@ -154,7 +154,7 @@ Result<void> Bench::growth(BenchResult& result, const BenchProgress& progress) c
     for (const BenchPlan::Volume& volume : m_plan.growth) {
         PlacementDesc placement;
         placement.counts = volume.counts;
-        placement.marginCells = 0;  // the same space for all: coarse grids have wide margins, where rays meet nothing
+        placement.marginCells = 0;  // else coarse grids would have wide margins, where rays hit nothing
         const auto grid = placeVolume(m_setup.pose.bounds, placement);
         if (!grid) return grid.error();
         FieldDesc desc;

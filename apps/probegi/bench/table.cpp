@@ -15,7 +15,7 @@ namespace probegi::tool {
 
 namespace {
 
-// Goals: a ratio at most (or at least) this.
+// Goals: upper (or lower) limits of ratios.
 constexpr double kTraceGoal = 1.15, kBlendGoal = 0.25, kUpdateGoal = 3, kQueryGoal = 0.7, kPictureGoal = 10;
 constexpr double kBytesGoal = 1600, kScalingGoal = 1.8, kGrowthGoal = 1.1;
 
@@ -116,7 +116,7 @@ BenchRow memoryRow(const BenchResult& r) {
             ""};
 }
 
-// More threads than processors say nothing, and the goal is about two.
+// Judged only with two threads, which the goal is for, on as many processors.
 BenchRow scalingRow(const BenchResult& r) {
     const bool judged = r.threads == 2 && std::thread::hardware_concurrency() >= 2;
     const double alone = r.median([](const Round& x) { return x.updateAlone; });
@@ -134,7 +134,7 @@ double nanosecondsPerRay(const BenchGrowth& g) {
     return median(g.ms) * 1e6 / (double(g.probes) * g.rays);
 }
 
-// With more digits than the goals have, so that what just misses is seen to miss.
+// With more digits than the goals, so that a near miss shows as a miss.
 std::string decimal(std::optional<double> value) {
     if (!value) return {};
     return *value >= 100 ? fmt::format("{:.0f}", *value) : fmt::format("{:.3f}", *value);

@@ -4,7 +4,7 @@
 
 namespace probegi::tool {
 
-/// The processor's name as the operating system gives it; "unknown processor" where it gives none.
+/// The processor's name from the operating system, or "unknown processor".
 std::string processorName();
 
 }  // namespace probegi::tool

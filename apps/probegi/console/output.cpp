@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A file that writing would replace: not a device, a pipe or a stream of this process.
+/// Whether writing would replace the file, which is not so for devices, pipes and streams of this process.
 bool replaceable(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);

@@ -13,7 +13,7 @@ namespace probegi::tool {
 namespace {
 
 constexpr int kMaxSide = 16384;
-constexpr float kMaxMagnitude = 1e12f;  // products of two of these are still finite
+constexpr float kMaxMagnitude = 1e12f;  // so that products of two are finite
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
     std::vector<std::string_view> parts;
@@ -147,8 +147,8 @@ void addUnpackLimit(CLI::App& command, ReadLimits& limits) {
     limits.name = "--unpack-limit";
     command
         .add_option("--unpack-limit", limits.megabytes,
-                    "MB that the pixels of a small file may fill, its geometry a sixteenth; any file may fill 64 times "
-                    "its own size")
+                    "MB that the decoded pixels of a small file may take, its geometry a sixteenth of that; any file "
+                    "may take 64 times its own size")
         ->type_name("MB")
         ->check(wholeNumber())
         ->check(inRange(1, 1 << 20))

@@ -14,9 +14,9 @@
 
 namespace probegi::tool {
 
-// Text of the command line to values. Errors are sentences that name what was expected; they throw nothing.
+// Parsers for command-line arguments. Errors name what was expected. Nothing throws.
 
-/// Exactly `count` finite numbers between commas, e.g. "1,-0.5,2".
+/// Exactly `count` finite numbers separated by commas, e.g. "1,-0.5,2".
 Result<std::vector<float>> parseNumbers(std::string_view text, std::size_t count);
 
 Result<glm::vec3> parseVector(std::string_view text);   ///< "X,Y,Z"
@@ -31,23 +31,23 @@ struct PictureSize {
 };
 Result<PictureSize> parseSize(std::string_view text);  ///< "WxH", each 1..16384
 
-/// What --exposure says.
+/// The value of --exposure.
 struct Exposure {
-    bool automatic = false;       ///< "auto": from the picture
+    bool automatic = false;       ///< "auto": chosen for the picture
     std::optional<float> factor;  ///< empty without automatic, "scene": what the scene suggests
 };
 Result<Exposure> parseExposure(std::string_view text);  ///< "auto", "scene" or a number, 1e-9..1e9
 
-/// CLI11's own range check lets NaN through and does not say which option failed.
+/// Replaces CLI11's range check, which accepts NaN and does not name the option.
 CLI::Validator inRange(double lower, double upper);
 
-/// Refuses what CLI11 would wrap around: a minus sign before an unsigned number.
+/// Rejects negative numbers for unsigned options, which CLI11 would wrap around.
 CLI::Validator wholeNumber();
 
-/// --unpack-limit. Also puts its name into the limits, for their errors.
+/// Adds --unpack-limit, and puts its name into the limits, for their error messages.
 void addUnpackLimit(CLI::App& command, ReadLimits& limits);
 
-/// Turns the name of an enumerator into its number, which CLI11 reads; other names are refused with the list of names.
+/// Turns the name of an enumerator into its number, which CLI11 reads; rejects other names, listing the valid ones.
 template <class Enum>
 CLI::Validator oneOf(const std::map<std::string, Enum>& names) {
     return CLI::Validator(
@@ -64,7 +64,7 @@ CLI::Validator oneOf(const std::map<std::string, Enum>& names) {
         "");
 }
 
-/// Turns one of the parsers above into a check that CLI11 runs while it reads the command line.
+/// Turns one of the parsers above into a CLI11 validator.
 template <class Parser>
 CLI::Validator parsedBy(Parser parser) {
     return CLI::Validator(

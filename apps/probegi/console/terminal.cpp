@@ -19,9 +19,9 @@ namespace {
 constexpr double kQuietSeconds = 0.5;  // shorter stages draw nothing
 constexpr int kBarCells = 28;
 
-constexpr std::size_t kLongestSentence = 1500;  // bytes; it may quote names of any length
+constexpr std::size_t kLongestSentence = 1500;  // bytes; messages may quote names of any length
 
-/// One character of UTF-8.
+/// One UTF-8 character.
 struct Character {
     std::uint32_t code = 0;
     std::size_t bytes = 1;
@@ -64,7 +64,7 @@ std::string timeLeft(double seconds) {
     return fmt::format(", {} min {:02} s left", whole / 60, whole % 60);
 }
 
-// Rewrites one line of the terminal and takes it away at the end of the stage.
+// Draws over one line of the terminal and clears it at the end of the stage.
 class ProgressBar {
 public:
     void draw(const ProgressReport& report) {
@@ -211,14 +211,15 @@ int closeStandardOutput(int exitCode, std::error_code reason) {
     else if (!std::ferror(stdout))
         return exitCode;
     const std::string why = reason ? fmt::format(" ({})", reason.message()) : std::string();
-    const int failed = printError(
-        {ErrorCode::writeFailed, fmt::format("what is printed cannot be written{}; check where it goes", why)});
+    const int failed =
+        printError({ErrorCode::writeFailed,
+                    fmt::format("standard output cannot be written{}; check where it is redirected", why)});
     return exitCode ? exitCode : failed;
 }
 
 void keepStandardStreams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-        // For reading only: printing to a closed stream stays an error.
+        // Read-only, so that printing to a closed stream still fails.
         if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDONLY) != stream) return;
 }
 

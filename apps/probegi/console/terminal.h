@@ -10,11 +10,11 @@
 
 namespace probegi::tool {
 
-/// A context that talks to the person at the terminal: warnings on stderr, and a progress bar with the time left
-/// where stderr is a terminal (nothing is drawn otherwise). Range of threads: 0 (all) to 1024.
+/// A context that prints warnings to stderr and, if stderr is a terminal, draws a progress bar with the time left.
+/// Range of threads: 0 (all) to 1024.
 Result<Context> makeContext(int threads);
 
-/// One bar over several pieces of work, with the time left for all of them. Draws nothing where stderr is no terminal.
+/// One progress bar over several pieces of work. Draws only if stderr is a terminal.
 class WholeBar {
 public:
     WholeBar();
@@ -22,11 +22,11 @@ public:
     WholeBar(const WholeBar&) = delete;
     WholeBar& operator=(const WholeBar&) = delete;
 
-    /// Guesses of the pieces' seconds, once they are known and before the first begins.
+    /// Estimated seconds of each piece. Call it before the first begins.
     void plan(std::vector<double> guesses);
     void begin(std::string piece);
     void done(double shareOfPiece);
-    /// Takes the bar away, for text that follows.
+    /// Clears the bar, so that text can be printed.
     void clear();
 
 private:
@@ -35,10 +35,10 @@ private:
     std::shared_ptr<Impl> m_impl;
 };
 
-/// A context whose stages move the bar of the piece that they belong to. Before the first piece it draws nothing.
+/// A context whose stages advance the current piece of the bar. Draws nothing before the first piece.
 Result<Context> makeContext(int threads, WholeBar& bar);
 
-/// The same bar for a loop of the tool's own. Draws nothing where stderr is no terminal.
+/// A progress bar for a loop in the tool itself. Draws only if stderr is a terminal.
 class LoopProgress {
 public:
     LoopProgress(std::string stage, int total);
@@ -53,20 +53,20 @@ private:
     std::unique_ptr<Impl> m_impl;
 };
 
-/// Text of a file's or of the command line's as a terminal may show it: control characters, which could move the cursor
-/// or rename the window, those that turn the direction of writing, and bytes that are no UTF-8 become "?", line breaks
-/// become spaces. A text of more than `most` bytes loses its middle.
+/// Untrusted text made safe for a terminal: control characters (which could move the cursor or rename the window),
+/// bidirectional controls and invalid UTF-8 become "?", line breaks become spaces. Texts of more than `most` bytes lose
+/// their middle.
 std::string plainText(std::string_view text, std::size_t most = std::string_view::npos);
 
-/// What of a name is shown in a line of a table.
+/// Longest name shown in a table row, in bytes.
 constexpr std::size_t kShownName = 80;
 
-/// Makes sure that what was printed has arrived. `reason`: why printing failed before, where that is known. Returns the
-/// exit code: that of the run, or 1 and "error: ...".
+/// Flushes standard output and reports earlier failures of printing; `reason`: their cause, if known. Returns the exit
+/// code of the run, or if printing failed prints "error: ..." and returns 1.
 int closeStandardOutput(int exitCode, std::error_code reason = {});
 
-/// Takes the numbers of standard streams that whoever started the program has closed, so that no file gets one of them
-/// and with it what is printed. To be called first.
+/// Occupies the descriptors of standard streams that are closed at start. Otherwise the next file opened would get one
+/// of them, and receive what is printed. Call it first.
 void keepStandardStreams();
 
 /// "warning: ..." on stderr.

@@ -5,11 +5,11 @@
 
 namespace probegi::tool {
 
-/// A table in Markdown, aligned so that it can be read in a terminal too. The first row is the header and is as long as
-/// any other.
+/// A Markdown table, aligned so that it is readable in a terminal too. The first row is the header; all rows have the
+/// same number of cells.
 std::string markdownTable(const std::vector<std::vector<std::string>>& cells);
 
-/// As YYYY-MM-DD.
+/// The date as YYYY-MM-DD.
 std::string today();
 
 }  // namespace probegi::tool

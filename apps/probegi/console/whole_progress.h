@@ -5,20 +5,20 @@
 
 namespace probegi::tool {
 
-/// Pieces of work as one progress: each takes a share of the whole that somebody guessed.
+/// Progress over several pieces of work, weighted by estimates of their times.
 class WholeProgress {
 public:
-    /// Guesses of the pieces' times, in order, >= 0; only their ratios count.
+    /// Estimated times of the pieces, in order, >= 0; only their ratios matter.
     explicit WholeProgress(std::vector<double> guesses);
 
-    /// The next piece begins; those before it are done.
+    /// Starts the next piece; those before it are done.
     void begin();
-    /// Share of all that is done when so much of the piece is, 0..1 both. Never falls: a piece of several stages that
-    /// each begin at 0 stands still instead.
+    /// Fraction of the whole that is done when `ofPiece` of the current piece is, both 0..1. Never decreases: if a
+    /// piece has several stages, each starting at 0, it stays where it was.
     double fraction(double ofPiece);
 
 private:
-    std::vector<double> m_before;  // share of all pieces before each, and 1
+    std::vector<double> m_before;  // share of the whole before each piece; ends with 1
     std::size_t m_begun = 0;
     double m_shown = 0;
 };

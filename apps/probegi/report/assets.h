@@ -4,7 +4,7 @@
 
 namespace probegi::tool {
 
-/// What the report page carries inside: its style sheet and its script.
+/// Style sheet and script, embedded in the report page.
 extern const std::string_view kReportStyle;
 extern const std::string_view kReportScript;
 

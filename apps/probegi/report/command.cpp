@@ -41,7 +41,7 @@ white, whatever the pictures are shown with.
 Example: probegi report builtin:atrium -o out
 Example: probegi report builtin:cornell sponza.glb -o out --size 1280x720 --time 60)";
 
-/// Letters, digits, - and _ of the scene's name: what is safe in a file name anywhere.
+/// The letters, digits, - and _ of the scene's name, which are safe in file names on all systems.
 std::string filePrefix(const std::string& scene, std::set<std::string>& taken) {
     std::string name = scene.rfind("builtin:", 0) == 0 ? scene.substr(8) : fs::path(scene).stem().string();
     for (char& c : name)
@@ -52,7 +52,7 @@ std::string filePrefix(const std::string& scene, std::set<std::string>& taken) {
     return unique;
 }
 
-/// The command as it was given, so that the reader of a page can make it again.
+/// The command line as given, so that readers can reproduce the page.
 std::string commandLine(const CLI::App& command) {
     std::string line = "probegi " + command.get_name();
     for (const CLI::Option* option : command.get_options()) {
@@ -64,7 +64,7 @@ std::string commandLine(const CLI::App& command) {
     return line;
 }
 
-/// What a person calls the scene: the file's name without its folders.
+/// The scene's name for readers: the file name without folders.
 std::string sceneTitle(const std::string& scene) {
     return scene.rfind("builtin:", 0) == 0 ? scene : plainText(fs::path(scene).filename().string());
 }
@@ -81,7 +81,7 @@ ReportSettings settingsOf(const ReportOptions& options) {
     return settings;
 }
 
-/// Whether a file is one of those that a scene's pictures are written to, or could be.
+/// Whether the name of a file is one that a scene's pictures could have.
 bool isPictureOf(const std::string& prefix, const fs::path& folder, const fs::path& file) {
     std::error_code error;
     const std::string extension = file.extension().string();
@@ -90,14 +90,15 @@ bool isPictureOf(const std::string& prefix, const fs::path& folder, const fs::pa
            fs::equivalent(beside, folder, error);
 }
 
-/// The folder, and whether the files of a page can be written there without harm to the scenes.
+/// Creates the folder, and checks that the page's files would not overwrite the scenes'.
 Result<void> makeFolder(const fs::path& folder, const std::vector<LoadedSetup>& setups,
                         const std::vector<std::string>& prefixes) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error)
-        return fail(ErrorCode::writeFailed, fmt::format("The folder '{}' cannot be made ({}): choose another with -o",
-                                                        folder.string(), error.message()));
+        return fail(ErrorCode::writeFailed,
+                    fmt::format("The folder '{}' cannot be created ({}): choose another with -o", folder.string(),
+                                error.message()));
     Outputs outputs;
     for (const char* name : {"report.html", "report.json"})
         if (auto claimed = outputs.claim("-o", folder / name); !claimed) return claimed;
@@ -118,7 +119,7 @@ const std::string& sceneName(const ReportOptions& options, std::size_t scene) {
     return scene == 0 ? options.scene.scene : options.more[scene - 1];
 }
 
-/// One bar over all pictures of all scenes.
+/// Sets up one progress bar over all pictures of all scenes.
 void planProgress(const std::vector<LoadedSetup>& setups, ReportSettings& settings, WholeBar& bar) {
     std::vector<double> guesses;
     for (const LoadedSetup& setup : setups)
@@ -128,7 +129,7 @@ void planProgress(const std::vector<LoadedSetup>& setups, ReportSettings& settin
     settings.run.progress = [&bar](double share) { bar.done(share); };
 }
 
-/// All scenes, before the work begins: a mistyped name is reported at once.
+/// Loads all scenes before the work begins, so that a mistyped name is reported at once.
 Result<std::vector<LoadedSetup>> loadAll(const ReportOptions& options) {
     std::vector<LoadedSetup> setups;
     SceneOptions one = options.scene;
@@ -143,7 +144,7 @@ Result<std::vector<LoadedSetup>> loadAll(const ReportOptions& options) {
     return setups;
 }
 
-/// What a terminal shows of a scene: the page has the rest.
+/// The figures of a scene that are printed; the page has the rest.
 std::string keyNumbers(const std::string& name, const RenderedScene& scene) {
     const FieldResult& field = scene.ddgiField;
     const LightRatio& ratio = scene.ddgi.whole.difference.ratio;
@@ -198,7 +199,7 @@ Result<void> writeReport(const ReportOptions& options, const CLI::App& command) 
 
 void addReportOptions(CLI::App& command, ReportOptions& options) {
     command.add_option("MORE", options.more, "further scenes for the same page")->type_name("");
-    command.add_option("-o,--output", options.folder, "folder for the page and its pictures; made where it is missing")
+    command.add_option("-o,--output", options.folder, "folder for the page and its pictures; created if missing")
         ->type_name("DIR")
         ->required();
     command.add_option("--size", options.size, "pixels, each side 1 to 16384")
@@ -212,7 +213,7 @@ void addReportOptions(CLI::App& command, ReportOptions& options) {
                         options.settings.seconds))
         ->type_name("SECONDS")
         ->check(inRange(0.001, 1e6));
-    command.add_option("--spp", options.samplesPerPixel, "reference: samples a pixel")
+    command.add_option("--spp", options.samplesPerPixel, "reference: samples per pixel")
         ->type_name("N")
         ->check(inRange(1, 1e6));
     command.add_option("--rays", options.settings.raysPerProbe, "rays per probe and update, 8 to 4096")
@@ -229,7 +230,7 @@ void addReportOptions(CLI::App& command, ReportOptions& options) {
     command.add_flag("--plain", options.plain, "show pictures clipped at white, without a smooth shoulder");
     command.add_flag("--diffuse-only", options.settings.diffuseOnly,
                      "all materials as matt surfaces of their base colour");
-    command.add_option("--seed", options.settings.seed, "another number, other noise; equal numbers, equal pictures")
+    command.add_option("--seed", options.settings.seed, "random seed; equal seeds give equal pictures")
         ->type_name("N")
         ->check(wholeNumber())
         ->capture_default_str();

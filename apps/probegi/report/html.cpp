@@ -11,7 +11,7 @@ namespace probegi::tool {
 
 namespace {
 
-/// Where on the page a picture is.
+/// A view's place on the page, which its pictures' ids are made from.
 struct Place {
     std::size_t scene, view;
     std::string id(std::string_view picture) const { return fmt::format("s{}v{}-{}", scene, view, picture); }
@@ -49,7 +49,7 @@ std::string options(const ReportView& view, const Place& place, std::size_t chos
     return html;
 }
 
-/// Its pictures are those of the gallery below: the script points at them, so that each is in the file only once.
+/// The script shows the gallery's pictures in it, so that the file contains each only once.
 std::string slider(const ReportView& view, const Place& place, std::size_t left, std::size_t right) {
     return fmt::format(
         "<div class=\"slider\"><div class=\"stage\"><img class=\"left\" alt=\"\"><img class=\"right\" alt=\"\">"

@@ -11,7 +11,7 @@ namespace probegi::tool {
 namespace {
 
 constexpr float kLargest = 65504;
-constexpr std::uint32_t kDropped = 3;  // of ten bits of mantissa; rounded, not cut
+constexpr std::uint32_t kDropped = 3;  // of ten bits of mantissa; rounded, not truncated
 constexpr std::uint32_t kInfinity = 0x7c00;
 
 std::uint32_t shortHalf(float value) {

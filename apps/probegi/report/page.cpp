@@ -25,10 +25,10 @@ Result<std::string> readBytes(const std::filesystem::path& path) {
     return bytes;
 }
 
-// For what is no light: no exposure, and no dither, which makes files large.
+// For pictures of other things than light: no exposure, and no dither, which makes files large.
 constexpr ToneMap kPlain{.exposure = 1, .filmic = false, .dither = false};
 
-/// The bytes of a picture as a PNG, which also stays in the folder where `keep`.
+/// The bytes of a picture as a PNG. With `keep`, the file stays in the folder.
 Result<std::string> pngBytes(const ReportPlace& place, const std::string& name, const HdrImage& image,
                              const ToneMap& display, bool keep) {
     const auto path = place.folder / fmt::format("{}-{}.png", place.prefix, name);
@@ -41,7 +41,7 @@ Result<std::string> pngBytes(const ReportPlace& place, const std::string& name, 
 
 /// A picture to look at, and the values behind it.
 struct Shown {
-    ReportPicture text;  ///< all but bytes; without a unit its values are not told
+    ReportPicture text;  ///< without the PNGs; no values are stored if it has no unit
     const HdrImage& image;
     ToneMap display;
     const HdrImage& values;
@@ -71,13 +71,13 @@ std::vector<Lit> lightings(const RenderedView& view) {
     return {{"none", "No GI", "Direct light only: what no lamp reaches is black.", view.none.picture, &view.none},
             {"leaky", "Leaking field", "Probes without a visibility test: their light passes through walls.",
              view.leaky.picture, &view.leaky},
-            {"ddgi", "Field", "Probes that know how far they see, and light only what they see.", view.ddgi.picture,
+            {"ddgi", "Field", "Probes with a visibility test: they light only what they see.", view.ddgi.picture,
              &view.ddgi},
             {"reference", "Reference", "Path traced, without any approximation: the truth, with some noise.",
              view.reference, nullptr}};
 }
 
-/// File names of a view begin with this after the scene's prefix.
+/// Follows the scene's prefix in the file names of a view.
 std::string viewPrefix(std::size_t number) {
     return number == 0 ? std::string() : fmt::format("camera{}-", number);
 }
@@ -113,7 +113,7 @@ Result<ReportPicture> leakPicture(const ReportPlace& place, const std::string& p
         .id = "leaks",
         .title = "Leak map",
         .caption = fmt::format("The field's indirect light over the reference's, where noise cannot explain the "
-                               "difference: reddish too much, bluish too little, full red {} times and more, visibly. "
+                               "difference: reddish is too much, bluish too little, full red visibly {} times or more. "
                                "{} of {} places leak. Light that came through a wall and a contact shadow finer than "
                                "the probes' spacing look the same here: the reference beside it tells which it is.",
                                kLeakRatio, leaks.leaks, leaks.tiles),
@@ -134,7 +134,7 @@ Result<std::vector<ReportPicture>> mapsOf(const RenderedView& view, const Report
                                        light.method->whole.flipMap));
     made.push_back(flipPicture(place, prefix, "exact", "Noise floor",
                                fmt::format("What an exact picture would score, {:.4f}: the reference's own noise. "
-                                           "Nothing below it can be told.",
+                                           "Smaller differences cannot be measured.",
                                            view.noiseFloor.flip),
                                view.noiseMap));
     std::vector<ReportPicture> maps;

@@ -9,21 +9,21 @@
 
 namespace probegi::tool {
 
-/// Where a scene's pictures go, and under which name.
+/// The folder and the names of a scene's pictures.
 struct ReportPlace {
     std::filesystem::path folder;
     std::string prefix;  ///< of the files: PREFIX-none.png ...
     std::string title;
 };
 
-/// What can be said of the field on all cameras.
+/// The verdict on the field over all cameras.
 Verdict verdictOf(const RenderedScene& scene);
 
-/// Writes the pictures as PNG and EXR, the maps as PNG, and puts them with the numbers into a section of the page.
+/// Writes the pictures as PNG and EXR and the maps as PNG, and makes a section of the page from them and the numbers.
 /// `filmic`: bright light rolls off in the pictures instead of clipping. Errors: those of writeImage.
 Result<ReportScene> describeScene(const RenderedScene& scene, const ReportPlace& place, bool filmic);
 
-/// The same numbers for programs.
+/// The same numbers as JSON.
 nlohmann::json sceneNumbers(const RenderedScene& scene);
 
 /// Colours of the error maps in even steps from 0 to 1, as CSS.

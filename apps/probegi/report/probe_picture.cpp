@@ -15,7 +15,7 @@ namespace {
 constexpr float kInWall = 0.3f, kBesideWall = 0.02f, kDark = 1e-4f;
 constexpr float kRadius = 0.09f;        // of the spacing
 constexpr float kLeastPixels = 1.5f;    // radius of a ball far away
-constexpr float kThroughWalls = 0.35f;  // how much of a probe in a wall shines through it
+constexpr float kThroughWalls = 0.35f;  // opacity of a probe seen through a wall
 
 struct Look {
     const char* name;
@@ -56,7 +56,7 @@ private:
     glm::vec2 m_centre;
 };
 
-/// A disc shaded as a ball, over what is farther away.
+/// Draws a disc shaded as a ball in front of what is farther away.
 void drawBall(HdrImage& shown, HdrImage& nearest, glm::vec3 centre, float radius, float distance, ProbeState state) {
     const int left = std::max(0, int(centre.x - radius)), right = std::min(shown.width - 1, int(centre.x + radius) + 1);
     const int top = std::max(0, int(centre.y - radius)),

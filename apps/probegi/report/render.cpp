@@ -22,7 +22,7 @@ private:
     std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
 };
 
-constexpr int kOthersShrink = 2;  // of cameras but the first
+constexpr int kOthersShrink = 2;  // the pictures of all cameras but the first
 
 PictureDesc pictureDesc(const RenderedView& view, const ReportSettings& settings) {
     PictureDesc desc;
@@ -33,7 +33,7 @@ PictureDesc pictureDesc(const RenderedView& view, const ReportSettings& settings
     return desc;
 }
 
-/// What all pieces of the work need.
+/// What all pieces of the work share.
 struct Studio {
     const Backend& backend;
     const Tracer& tracer;  ///< the backend's
@@ -89,7 +89,7 @@ Result<void> judge(MethodResult& method, const Picture& reference, const ToneMap
     return {};
 }
 
-/// The view of each camera, the first one's first.
+/// The view of each camera, in the cameras' order.
 std::vector<RenderedView*> viewsOf(RenderedScene& scene) {
     std::vector<RenderedView*> views{&scene};
     for (RenderedView& view : scene.others) views.push_back(&view);
@@ -144,7 +144,7 @@ Result<std::vector<ProbeSight>> lookAtProbes(const Field& field) {
     return probes;
 }
 
-/// A fresh field by real-time updates, and the first camera's picture with it.
+/// Fills a new field by real-time updates and draws the first camera's picture with it.
 Result<FieldPicture> drawRealtime(const Studio& studio, const RenderedScene& scene) {
     studio.begin(kRealtime);
     auto fresh = studio.backend.makeField(fieldDesc(studio), {});
@@ -157,8 +157,8 @@ Result<FieldPicture> drawRealtime(const Studio& studio, const RenderedScene& sce
     return FieldPicture{std::move(*filled), std::move(*drawn)};
 }
 
-/// The field without and with its leak guard. The second run starts from the first one's light, which it forgets. The
-/// field comes back for whoever wants to be guided by it.
+/// Fills and draws the field without and then with its leak guard. The second run starts from the light of the first,
+/// which does not affect the converged result. Returns the field, which guides the path tracer.
 Result<Field> drawFields(const Studio& studio, RenderedScene& scene) {
     auto field = studio.backend.makeField(fieldDesc(studio), {});
     if (!field) return field.error();
@@ -220,7 +220,7 @@ Result<void> drawReference(const PathTracer& pathTracer, const Studio& studio, c
     return {};
 }
 
-/// A sealed room has no light to expose for: it is shown as bright as the first camera's picture, or somewhat brighter.
+/// A sealed room has no light to choose an exposure by. Limits exposures to a multiple of the first camera's.
 void limitExposures(RenderedScene& scene) {
     constexpr float kBrightest = 30;
     for (RenderedView& view : scene.others) {
@@ -297,7 +297,7 @@ Result<RenderedScene> renderForReport(const Context& context, const Backend& bac
     const auto pathTracer = PathTracer::create(context, *setup.scene, setup.pose, **tracer, setup.lighting);
     if (!pathTracer) return pathTracer.error();
     scene.prepareSeconds = watch.seconds();
-    std::unique_ptr<Tracer> another;  // where the reference's is not the backend's
+    std::unique_ptr<Tracer> another;  // if the backend cannot use the reference's tracer
     if (backend.kind() != BackendKind::cpu) {
         auto made = backend.openScene(*setup.scene, setup.pose);
         if (!made) return made.error();

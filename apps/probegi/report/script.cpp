@@ -2,7 +2,7 @@
 
 namespace probegi::tool {
 
-// The values behind a picture come as halfFloatPlanes() packs them; the tone map is that of
+// Values behind pictures are decoded as halfFloatPlanes() encodes them; the tone map is that of
 // src/kernels/screen/tone_map.h.
 const std::string_view kReportScript = R"js(
 "use strict";
@@ -71,7 +71,7 @@ function pixelsOf(image) {
   return context.getImageData(0, 0, canvas.width, canvas.height).data;
 }
 
-/** The values behind a picture, three a pixel, row by row: read when they are first asked for. */
+/** The values behind a picture, three per pixel, row by row; decoded on first use. */
 function valuesOf(image) {
   image.values ??= (async () => {
     const packed = new Image();
@@ -94,7 +94,7 @@ function filmic(v) {
   for (let c = 0; c < 3; ++c) v[c] = v[c] * mapped / peak * (1 - white) + mapped * white;
 }
 
-/** The picture at another exposure, as a URL. */
+/** The picture at a different exposure, as a URL. */
 async function exposed(image, exposure, shoulder) {
   const values = await valuesOf(image), v = [0, 0, 0];
   const canvas = document.createElement("canvas");
@@ -163,7 +163,7 @@ function zoom(factor) {
 
 const number = (value) => Number(value.toPrecision(3)).toString();
 
-/** "2.31 1.02 0.4" of a colour, one number of a grey. */
+/** "2.31 1.02 0.4" for a colour, one number for a grey. */
 function reading(image, values, x, y) {
   const at = 3 * (y * image.naturalWidth + x), v = [...values.subarray(at, at + 3)];
   return (v[0] === v[1] && v[1] === v[2] ? number(v[0]) : v.map(number).join(" ")) + " " + image.dataset.unit;

@@ -9,9 +9,10 @@ namespace probegi::tool {
 
 namespace {
 
-constexpr double kLeakShare = 0.0025;  // of places: what a leaf here and there does not reach
+constexpr double kLeakShare = 0.0025;  // of the places: a few leaves do not reach it
 constexpr double kMeanWithin = 0.05, kPartsWithin = 0.15;
-// FLIP that an exact picture may score before the reference cannot judge, and what a better one should bring it to.
+// FLIP of an exact picture above which the reference is too noisy to judge by, and what a better reference should
+// reach.
 constexpr double kNoisyFlip = 0.05, kGoodFlip = 0.025;
 
 bool tooNoisy(const ViewFacts& view) {
@@ -20,7 +21,7 @@ bool tooNoisy(const ViewFacts& view) {
 
 bool matches(const ViewFacts& view) {
     const LightRatio &ratio = view.field.ratio, &exact = view.exact.ratio;
-    if (ratio.blocks == 0) return true;  // black, as the reference is
+    if (ratio.blocks == 0) return true;  // both are black
     return std::abs(ratio.mean - 1) <= kMeanWithin && ratio.low >= std::min(exact.low, 1.0) - kPartsWithin &&
            ratio.high <= std::max(exact.high, 1.0) + kPartsWithin;
 }
@@ -31,7 +32,7 @@ Judgement judgementOf(const ViewFacts& view) {
     return matches(view) ? Judgement::matches : Judgement::differs;
 }
 
-/// How much worse than others of the same judgement.
+/// Orders views of the same judgement.
 double severity(const ViewFacts& view, Judgement judgement) {
     switch (judgement) {
         case Judgement::leaks:
@@ -46,8 +47,8 @@ double severity(const ViewFacts& view, Judgement judgement) {
     return std::max({std::abs(ratio.mean - 1), 1 - ratio.low, ratio.high - 1});
 }
 
-/// Seconds after which the noise should be good: it falls with the root of the time. Rounded up to 1, 2, 3 or 5 times a
-/// power of ten.
+/// Seconds after which the noise should be good enough: it falls with the square root of time. Rounded up to 1, 2, 3 or
+/// 5 times a power of ten.
 int enoughSeconds(const ViewFacts& view) {
     const double wanted = std::max(view.referenceSeconds, 1.0) * std::pow(view.exact.flip / kGoodFlip, 2);
     for (double decade = 1;; decade *= 10)

@@ -1,4 +1,4 @@
-// Boxes without vertex buffers: 36 vertices an instance, from their corners.
+// Boxes without vertex buffers: 36 vertices per instance, computed from the corners.
 #include "rooms.glsl"
 
 layout(push_constant, scalar) uniform Push {

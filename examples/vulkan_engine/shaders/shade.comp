@@ -26,7 +26,7 @@ void main() {
     if (position.w > 0.0) {
         const vec3 normal = texelFetch(normals, at, 0).xyz;
         const vec3 albedo = texelFetch(albedos, at, 0).rgb;
-        // Direction to the viewer: none, since this camera looks in through a wall, which the look-up must not.
+        // No direction to the viewer: this camera looks in through a wall, towards which the look-up would bias points.
         const vec3 toViewer = vec3(0.0);
         // [query]
         vec3 irradiance = sunlight(frame, position.xyz, normal);

@@ -1,4 +1,4 @@
-// The engine's own ray data: the results of all probe rays as probegi::RayDatum. Last frame's field lights the hits, so
+// The engine's own ray data: the results of all probe rays as probegi::RayDatum. Hits are lit by last frame's field, so
 // each update adds a bounce.
 #include "probegi/query.glsl"
 #include "rooms.glsl"
@@ -19,7 +19,7 @@ layout(push_constant, scalar) uniform Push {
     Frame frame;
     Directions directions;
     RayData rayData;
-    int rays;  // a probe
+    int rays;  // per probe
 };
 
 RayDatum traceRay(vec3 origin, vec3 direction) {

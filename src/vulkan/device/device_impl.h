@@ -32,7 +32,7 @@ struct Device::Impl {
     std::optional<vk::raii::DebugUtilsMessengerEXT> messenger;
     vk::raii::PhysicalDevice physical;
     vk::raii::Device device;
-    vk::raii::Queue queue;  ///< of the library's own device; null on an engine's
+    vk::raii::Queue queue;  ///< null on an engine's device
     bool owned = false;     ///< whether instance and device are the library's
     bool debugUtilsEnabled = false;
     bool rayQuery = false;
@@ -40,12 +40,12 @@ struct Device::Impl {
     DeviceInfo info;
     vk::PhysicalDeviceLimits limits;
     vk::PhysicalDeviceMemoryProperties memoryProperties;
-    std::uint32_t scratchAlignment = 1;  ///< of acceleration structure builds
+    std::uint32_t scratchAlignment = 1;  ///< for acceleration structure builds
     std::uint32_t timestampBits = 0;
     VkDeviceSize maxBufferBytes = 0;
     Allocator allocator;
     mutable std::atomic<int> validationMessages{0};
-    mutable std::optional<Submitter> submitter;      // of the library's own device
+    mutable std::optional<Submitter> submitter;      // empty on an engine's device
     mutable std::optional<PipelineStore> pipelines;  // compiles on demand
 };
 

@@ -15,7 +15,7 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kNoLoader =
     "there is no Vulkan loader on this machine; install libvulkan1 and a driver, or use the CPU backend";
 
-// The loader also reports out of memory if it cannot read a driver's manifest.
+// The loader also reports out of memory if it cannot parse a driver's manifest.
 template <class Body>
 auto asking(const Body& body) try {
     return body();

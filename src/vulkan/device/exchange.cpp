@@ -15,7 +15,7 @@ void growTo(const Device& device, Buffer& buffer, const char* name, std::size_t 
 
 void Exchange::begin(std::size_t bytesIn, std::size_t bytesOut) {
     using Usage = vk::BufferUsageFlagBits;
-    // Values are padded to 16 bytes each; no round has more than a few.
+    // Each array is padded to 16 bytes; no round trip has more than four.
     const std::size_t room = bytesIn + 64;
     growTo(m_device, m_upload, "upload", room, Usage::eTransferSrc, MemoryUse::upload);
     growTo(m_device, m_in, "input", room, kAddressed, MemoryUse::device);

@@ -7,12 +7,13 @@
 
 namespace probegi::vulkan {
 
-/// Round trips of arrays to the GPU, through passes, and back. Buffers are kept and grow. Throws. One thread at a time.
+/// Round trips to the GPU: uploads arrays, runs passes on them, reads results back. Reuses its buffers. Throws. One
+/// thread at a time.
 class Exchange {
 public:
     explicit Exchange(const Device& device) : m_device(device) {}
 
-    /// Begins a round, with upper limits of bytes in and out.
+    /// Begins a round trip with at most so many bytes each way.
     void begin(std::size_t bytesIn, std::size_t bytesOut);
     /// Appends input values and returns their address.
     template <class T>

@@ -31,11 +31,11 @@ private:
     Allocation m_allocation;
 };
 
-/// A buffer with memory and, depending on its usage, an address. Throws as Vulkan-Hpp.
+/// A buffer with memory and, depending on its usage, an address. Throws Vulkan-Hpp's exceptions.
 class Buffer {
 public:
     Buffer() = default;
-    /// `bytes` may be 0; the buffer then has 16.
+    /// 0 `bytes` makes a buffer of 16, since Vulkan has no empty ones.
     Buffer(const Device::Impl& device, const char* name, std::size_t bytes, vk::BufferUsageFlags usage,
            MemoryUse use = MemoryUse::device);
 
@@ -66,7 +66,7 @@ public:
     vk::ImageView view() const noexcept { return *m_view; }
     vk::Extent2D size() const noexcept { return m_size; }
     std::uint32_t layers() const noexcept { return m_layers; }
-    std::size_t bytes() const noexcept { return m_bytes; }  ///< of memory, as the driver requires
+    std::size_t bytes() const noexcept { return m_bytes; }  ///< of memory, as required by the driver
 
 private:
     Memory m_memory;
@@ -77,7 +77,7 @@ private:
     std::size_t m_bytes = 0;
 };
 
-/// Usages of a buffer that shaders reach by address and copies write.
+/// Usage of a buffer that shaders access by address and copies write.
 inline constexpr vk::BufferUsageFlags kAddressed = vk::BufferUsageFlagBits::eStorageBuffer |
                                                    vk::BufferUsageFlagBits::eShaderDeviceAddress |
                                                    vk::BufferUsageFlagBits::eTransferDst;

@@ -34,7 +34,7 @@ std::uint64_t checksum(std::span<const std::uint8_t> data) {
     return sum;
 }
 
-// One file per driver and device, which the UUID identifies.
+// One file per driver and device, identified by the UUID.
 std::filesystem::path cacheFile(const vk::raii::PhysicalDevice& physical, const std::filesystem::path& folder) {
     if (folder.empty()) return {};
     std::string name = "pipelines-";
@@ -45,7 +45,7 @@ std::filesystem::path cacheFile(const vk::raii::PhysicalDevice& physical, const 
 std::vector<std::uint8_t> readCache(const std::filesystem::path& file, std::string& warning) {
     constexpr std::uintmax_t kMostBytes = 1 << 30;
     std::error_code error;
-    // Opening a pipe would block for ever, and a device file may be endless.
+    // Opening a pipe would block forever, and a device file may be endless.
     const bool readable =
         std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) <= kMostBytes;
     std::ifstream in;

@@ -42,7 +42,7 @@ private:
     vk::raii::PipelineCache m_cache;
     std::map<std::string, vk::raii::Pipeline> m_pipelines;
     bool m_changed = false;
-    std::uint64_t m_savedSum = 0;  // of the file's contents
+    std::uint64_t m_savedSum = 0;  // checksum of the file's contents
 };
 
 }  // namespace probegi::vulkan

@@ -32,19 +32,19 @@ public:
         m_commands.dispatch(x, y, z, dispatcher());
     }
     /// Runs a pass over `count` threads. More groups than one axis allows are spread over
-    /// two: shaders get their index from globalIndex() of shaders/common.glsl.
+    /// two: shaders get their index from globalIndex() in shaders/common.glsl.
     void dispatchOver(const Shader& shader, std::uint64_t count) const {
         const kernels::uvec3 groups = kernels::threadGroups(std::uint32_t(count));
         if (count) dispatch(shader, groups.x, groups.y);
     }
-    /// Runs a pass over `blocks` times `columns` groups: x and z hold a group's block, y its column. Devices may limit
-    /// an axis to 65,535 groups, and there may be more blocks of probes.
+    /// Runs a pass over `blocks` times `columns` groups. The block is spread over x and z (blockIndex() in
+    /// shaders/common.glsl), since devices may limit an axis to 65,535 groups; the column is y.
     void dispatchOver(const Shader& shader, std::uint32_t blocks, std::uint32_t columns,
                       std::span<const std::uint32_t> constants = {}) const {
         const kernels::uvec3 groups = kernels::blockGroups(blocks, columns);
         dispatch(shader, groups.x, groups.y, groups.z, constants);
     }
-    /// Runs a pass over as many groups as three words in GPU memory say, `offset` bytes into the buffer.
+    /// Runs a pass over a number of groups read from GPU memory: three words, `offset` bytes into the buffer.
     void dispatchIndirect(const Shader& shader, const Buffer& buffer, std::size_t offset,
                           std::span<const std::uint32_t> constants = {}) const {
         m_commands.bindPipeline(vk::PipelineBindPoint::eCompute, m_device.pipelines->get(shader, constants),
@@ -58,8 +58,8 @@ public:
     void fill(const Buffer& buffer, std::uint32_t value) const {
         m_commands.fillBuffer(buffer.handle(), 0, VK_WHOLE_SIZE, value, dispatcher());
     }
-    /// Writes bytes stored in the command buffer at `offset` bytes into the buffer, split to vkCmdUpdateBuffer's limit.
-    /// Multiples of four bytes.
+    /// Writes bytes `offset` bytes into the buffer by way of the command buffer, in pieces within vkCmdUpdateBuffer's
+    /// limit. Both must be multiples of four.
     void write(const Buffer& buffer, std::span<const std::byte> bytes, std::size_t offset = 0) const {
         constexpr std::size_t kPiece = 65536;
         for (std::size_t at = 0; at < bytes.size(); at += kPiece)
@@ -67,7 +67,7 @@ public:
                                     bytes.data() + at, dispatcher());
     }
 
-    /// Full barrier over all stages. For the ends of updates and uploads, of which a frame has few.
+    /// Full barrier over all stages, for the ends of updates and uploads, which are few per frame.
     void orderAll() const {
         const auto access = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite;
         barrier(vk::PipelineStageFlagBits2::eAllCommands, access, vk::PipelineStageFlagBits2::eAllCommands, access);
@@ -82,7 +82,7 @@ public:
         barrier(vk::PipelineStageFlagBits2::eComputeShader, kShaderAccess, vk::PipelineStageFlagBits2::eComputeShader,
                 kShaderAccess);
     }
-    /// The same where the second takes its number of groups from what the first wrote.
+    /// The same if the second reads its number of groups from what the first wrote.
     void computeToDispatch() const {
         barrier(vk::PipelineStageFlagBits2::eComputeShader, kShaderAccess,
                 vk::PipelineStageFlagBits2::eComputeShader | vk::PipelineStageFlagBits2::eDrawIndirect,

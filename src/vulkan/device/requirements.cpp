@@ -34,7 +34,7 @@ bool hasExtension(const std::vector<vk::ExtensionProperties>& extensions, std::s
                        [&](const auto& e) { return name == e.extensionName.data(); });
 }
 
-// Including the dependencies of VK_KHR_acceleration_structure.
+// Includes the dependencies of VK_KHR_acceleration_structure.
 bool hasRayQueryExtensions(const std::vector<vk::ExtensionProperties>& extensions) {
     return hasExtension(extensions, VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME) &&
            hasExtension(extensions, VK_KHR_RAY_QUERY_EXTENSION_NAME) &&

@@ -33,7 +33,7 @@ Features availableFeatures(const vk::raii::PhysicalDevice& device);
 /// From an engine's device create info.
 Features enabledFeatures(const VkDeviceCreateInfo& info);
 
-/// The first other missing requirement: version, formats, a compute queue. Empty: none.
+/// The first missing requirement that is not a feature: version, formats, a compute queue. Empty: none.
 std::string missingBesidesFeatures(const vk::raii::PhysicalDevice& device);
 
 /// The family for the library's own command buffers: compute, with graphics if possible (as an engine would use).

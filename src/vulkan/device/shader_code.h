@@ -7,13 +7,13 @@
 
 namespace probegi::vulkan {
 
-/// SPIR-V of shaders by their names; empty for an unknown name. The build makes them (cmake/probegi_shaders.cmake).
+/// SPIR-V of shaders by name; empty for an unknown name. The build generates it (cmake/probegi_shaders.cmake).
 using ShaderBook = std::span<const std::uint32_t> (*)(std::string_view name);
 
-/// The library's own: src/vulkan/shaders/NAME.comp, or NAME_TRACER where there is one for each tracer.
+/// The library's own shaders: src/vulkan/shaders/NAME.comp, or NAME_TRACER for those compiled once per tracer.
 std::span<const std::uint32_t> shaderCode(std::string_view name);
 
-/// A compute shader: what its pipeline is known by, and where its code stands.
+/// A compute shader: the name that identifies its pipeline, and where its code is found.
 struct Shader {
     std::string name;
     ShaderBook book = shaderCode;

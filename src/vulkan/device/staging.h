@@ -10,7 +10,7 @@ namespace probegi::vulkan {
 inline constexpr const char* kNothingToUpload =
     "the upload was recorded after releaseStaging(), when nothing is left to copy; record it once, before";
 
-/// Bytes to upload to buffers: collected, copied into one upload buffer, recorded as copies, released.
+/// Uploads to several buffers: collects the bytes, copies them into one upload buffer, records the copies, releases it.
 class Staging {
 public:
     /// A new device buffer for the bytes. `bytes` must live until fill(). Throws.

@@ -30,11 +30,11 @@ void Submitter::run(const std::function<void(VkCommandBuffer)>& record) {
 
 void Submitter::wait() {
     try {
-        // If a driver hangs, the system resets it and reports the device as lost.
+        // No overall time limit: if a driver hangs, the system resets it and reports the device as lost.
         while (m_device.waitForFences(*m_fence, true, 1'000'000'000) == vk::Result::eTimeout) {
         }
     } catch (const vk::SystemError& error) {
-        // Whatever the reason, the commands may still be running, so nothing may follow them.
+        // Whatever the reason, the commands may still be running, so nothing more may be submitted.
         m_lost = true;
         throw vk::DeviceLostError(error.what());
     }

@@ -29,7 +29,7 @@ private:
 
     const FieldPasses& m_passes;
     FieldDesc m_desc;
-    std::vector<std::uint16_t> m_irradiance;  // four halves a texel
+    std::vector<std::uint16_t> m_irradiance;  // four halves per texel
     std::vector<std::uint32_t> m_visibility;
     std::vector<float> m_shares;
     std::vector<kernels::ProbeSides> m_sides;

@@ -21,7 +21,7 @@ std::array<std::uint32_t, 1> irradianceConstants(const FieldSettings& settings) 
     return {settings.backfaceRule == BackfaceRule::excluded ? 1u : 0u};
 }
 
-// Of both atlases, which have the same tiles.
+// One shape for both atlases: a probe has the same tile in each.
 PoolShape poolShape(const Device& device, const FieldDesc& desc) {
     const auto& limits = device.impl().limits;
     const std::uint32_t tile = std::uint32_t(std::max(desc.irradianceTexels, desc.visibilityTexels) + 2);
@@ -40,7 +40,7 @@ Image makeAtlas(const Device& device, const char* name, vk::Format format, const
     return {device.impl(), name, format, {tile << shape.tiles.rowShift, tile * shape.rows}, shape.layers};
 }
 
-// Shaders count rays and their buffers' entries in 31 bits.
+// Shaders count rays, and index the buffers of rays, in 31 bits.
 FieldLayout checkedLayout(const FieldDesc& desc) {
     const FieldLayout layout(desc);
     constexpr std::size_t kMost = std::size_t(std::numeric_limits<std::int32_t>::max());
@@ -168,7 +168,7 @@ void FieldPasses::makeRayBuffers(int looks) {
 }
 
 void FieldPasses::recordClear(const Recorder& recorder, const FieldSettings& settings) {
-    // After whatever used the probes before: their content is dropped, but a layout change is a write too.
+    // Wait for all earlier uses of the probes: their contents are discarded, but a layout change is a write too.
     recorder.orderAll();
     const auto used = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite;
     const auto all = vk::ImageSubresourceRange(vk::ImageAspectFlagBits::eColor, 0, 1, 0, VK_REMAINING_ARRAY_LAYERS);
@@ -200,7 +200,7 @@ void FieldPasses::recordSettings(const Recorder& recorder, const FieldSettings& 
     recorder.orderAll();
 }
 
-// The list where it is another one, then what work it is.
+// Writes the task list if it has changed, then the sizes of the dispatches over it.
 void FieldPasses::recordTasks(const Recorder& recorder, const UpdateFrame& frame, int looks) {
     const std::size_t rays = frame.directions.size() + frame.fixedDirections.size();
     recorder.push(kernels::TasksPush{.tasks = packAddress(m_tasks.address()),
@@ -221,7 +221,7 @@ void FieldPasses::recordTasks(const Recorder& recorder, const UpdateFrame& frame
         }
     }
     recorder.dispatch("count_tasks", 1);
-    if (frame.windows && !frame.whole()) recorder.fill(m_steps, 0);  // no lag of probes that are not updated
+    if (frame.windows && !frame.whole()) recorder.fill(m_steps, 0);  // probes that are not updated report no lag
     recorder.transferToCompute();
     recorder.computeToDispatch();
 }
@@ -349,7 +349,7 @@ void FieldPasses::recordSolidProbes(const Recorder& recorder, Profiler* profiler
 }
 
 void FieldPasses::beginUpdate(const Recorder& recorder, const UpdateFrame& frame, int looks, Profiler* profiler) {
-    // Whatever can fail comes first: an update is recorded whole or not at all.
+    // Everything that can fail comes first: an update is recorded completely or not at all.
     PipelineStore& pipelines = *m_device.impl().pipelines;
     for (const char* shader : {"all_tasks", "count_tasks", "blend_weights", "probe_lag", "probe_windows",
                                "probe_filter", "blend_visibility", "find_solid_probes"})

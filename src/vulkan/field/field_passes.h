@@ -10,33 +10,33 @@
 
 namespace probegi::vulkan {
 
-/// Where an update's ray data lie, and what the looks at emitters brought.
+/// Addresses of an update's ray data and of the light of its emitter samples.
 struct RayAddresses {
     VkDeviceAddress update = 0;         ///< RayDatum[task][ray]
-    VkDeviceAddress fixed = 0;          ///< FixedRayDatum[task][ray]; 0 where the frame has no fixed rays
+    VkDeviceAddress fixed = 0;          ///< FixedRayDatum[task][ray]; 0 if the frame has no fixed rays
     VkDeviceAddress emitterLights = 0;  ///< EmitterLight[task][look]
-    int looks = 0;                      ///< a task; 0: none
+    int looks = 0;                      ///< emitter samples per task; 0: none
 };
 
-/// A field's probes in GPU memory and the passes over them. What an update needs to know of the frame comes from the
-/// FieldControl of a GpuField or a Field. Throws Failure and what Vulkan-Hpp throws.
+/// A field's probes in GPU memory and the passes over them. The UpdateFrame of an update comes from the FieldControl of
+/// a GpuField or a Field. Throws Failure and Vulkan-Hpp's exceptions.
 class FieldPasses {
 public:
     /// The desc must be valid. Failure: unsupported (more probes than the device's images hold).
     FieldPasses(const Device& device, const FieldDesc& desc);
 
-    /// Forgets what the probes hold. `settings` are those of the shaders that read the field from now on.
+    /// Clears all probes. From here on, `settings` are what shaders that read the field see.
     void recordClear(const Recorder& recorder, const FieldSettings& settings);
-    /// Traces and shades the rays of the tasks into rayData(), then blends it.
+    /// Traces and shades the rays of the tasks, then blends the ray data.
     void recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
                       const GpuLighting& lighting, Profiler* profiler);
-    /// Blends the data at addresses.
+    /// Blends ray data that are already in GPU memory.
     void recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data, Profiler* profiler);
     void recordQuery(const Recorder& recorder, const FieldSettings& settings, VkDeviceAddress queries,
                      VkDeviceAddress irradiance, std::uint32_t count, Profiler* profiler);
-    /// Brings the constants up to date with the settings, for whoever reads set() in passes of its own.
+    /// Updates the constants to the settings, for callers that bind set() in passes of their own.
     void recordSettings(const Recorder& recorder, const FieldSettings& settings);
-    /// After commands that were recorded but will not run: the next pass writes constants and tasks again.
+    /// Call it if recorded commands will not run: the next pass writes constants and tasks again.
     void forgetRecorded() noexcept {
         m_recordedSettings.reset();
         m_recordedTasks.reset();
@@ -66,7 +66,7 @@ private:
     void recordWeights(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler);
     void recordTrace(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
                      const GpuLighting& lighting, const RayAddresses& data, Profiler* profiler);
-    /// From ray data on.
+    /// All passes after the ray data.
     void recordRest(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data, Profiler* profiler);
     void recordWindows(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
                        Profiler* profiler);
@@ -82,20 +82,20 @@ private:
     kernels::PoolTiles m_tiles;
     Image m_irradiance, m_visibility;
     Buffer m_constants;                     // FieldConstants
-    Buffer m_states;                        // the count of fallbacks, then each probe's share of backfaces
+    Buffer m_states;                        // count of fallback queries, then each probe's share of backfaces
     Buffer m_tasks;                         // GpuTaskCounts, GpuTask[task]
-    Buffer m_sides;                         // ProbeSides a probe
-    Buffer m_filters;                       // PackedProbeFilter a probe
-    Buffer m_steps, m_changes;              // what the passes of an update hand to each other
-    Buffer m_directions;                    // vec3 a ray: those of the update, then the fixed ones
+    Buffer m_sides;                         // ProbeSides per probe
+    Buffer m_filters;                       // PackedProbeFilter per probe
+    Buffer m_steps, m_changes;              // passed between the passes of an update
+    Buffer m_directions;                    // vec3 per ray: those of the update, then the fixed ones
     Buffer m_irradianceWeights;             // float[ray][texel]
     Buffer m_visibilityRays;                // GpuTexelRays[texel]
     Buffer m_visibilityWeights;             // GpuRayWeight[entry][texel]
-    Buffer m_hits, m_rayData, m_fixedRays;  // made by the first traced update
-    Buffer m_emitterLights;                 // made by the first with emitters
+    Buffer m_hits, m_rayData, m_fixedRays;  // created by the first traced update
+    Buffer m_emitterLights;                 // created by the first with emitters
     vk::raii::DescriptorPool m_pool{nullptr};
     vk::raii::DescriptorSets m_sets{nullptr};
-    // What the buffers hold once all that was recorded has run.
+    // Contents of the buffers once all recorded commands have run.
     std::optional<FieldSettings> m_recordedSettings;
     std::optional<std::uint32_t> m_recordedTasks;  // UpdateFrame::taskList
 };

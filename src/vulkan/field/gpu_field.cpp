@@ -5,7 +5,7 @@ namespace probegi::vulkan {
 
 namespace {
 
-// Whether a range of the caller's holds `count` values of `size` bytes; `what` names it.
+// Whether the caller's range holds `count` values of `size` bytes; `what` names it in errors.
 Result<void> checkRange(const BufferRange& range, const char* what, std::size_t count, std::size_t size) {
     const std::size_t needed = count * size;
     if (range.bytes < needed)

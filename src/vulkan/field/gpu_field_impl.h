@@ -12,7 +12,7 @@ struct GpuField::Impl {
 
     FieldControl::Impl& books() noexcept { return control.impl(); }
 
-    /// guarded(), for passes: a caller drops the command buffer of those that failed.
+    /// guarded() for recording passes. If it fails, callers drop the command buffer, so what was recorded never runs.
     template <class Body>
     Result<void> recorded(const char* doing, const Body& body) {
         auto done = guarded(doing, body);

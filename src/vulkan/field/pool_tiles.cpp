@@ -6,7 +6,7 @@ namespace probegi::vulkan {
 
 namespace {
 
-// log2 of the tiles along the side of the largest layer.
+// log2 of the number of tiles along the side of the largest layer.
 int largestShift(std::uint32_t tile, std::uint32_t largestSide) {
     return int(std::bit_width(largestSide / tile)) - 1;
 }

@@ -202,7 +202,7 @@ Result<void> VulkanField::write(const FieldSnapshot& snapshot) {
 
 std::uint64_t VulkanField::fallbackQueries() const noexcept {
     const std::lock_guard lock(m_mutex);
-    // Queries count without an update: the mirror may be older.
+    // Not from the mirror: that is refreshed by updates only, and queries count without one.
     const auto count = guarded("reading the count of fallbacks", [&] {
         const Buffer word(m_device.impl(), "fallbacks", 4, vk::BufferUsageFlagBits::eTransferDst, MemoryUse::readback);
         submitAndWait(m_device, [&](const Recorder& recorder) {

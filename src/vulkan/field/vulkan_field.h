@@ -35,15 +35,15 @@ public:
     std::vector<PassTime> passTimes() const;
 
 private:
-    /// The lighting in GPU memory, uploaded again only where it changed. Throws.
+    /// The lighting in GPU memory, uploaded again only if it has changed. Throws.
     const GpuLighting& uploaded(const Lighting& lighting) const;
     UpdateTimes updateOnGpu(const UpdateFrame& frame, const GpuTracer& tracer, const Lighting& lighting);
     UpdateTimes updateFrom(const UpdateFrame& frame, std::span<const RayDatum> rayData,
                            std::span<const FixedRayDatum> fixedRays, std::span<const kernels::EmitterLight> lights);
-    /// guarded(), for passes over the volume.
+    /// guarded() for passes over the field.
     template <class Body>
     auto attempted(const char* doing, const Body& body) const;
-    /// Up to date. Throws.
+    /// The mirror, refreshed if it is out of date. Throws.
     FieldMirror& mirror() const;
 
     Context m_context;
@@ -55,7 +55,7 @@ private:
     mutable std::optional<FieldMirror> m_mirror;  // empty: out of date
     mutable std::optional<Lighting> m_lightingSource;
     mutable std::optional<GpuLighting> m_lighting;
-    std::vector<RayDatum> m_rayData;         // of rays that another backend's tracer traced
+    std::vector<RayDatum> m_rayData;         // of rays traced by another backend's tracer
     std::vector<FixedRayDatum> m_fixedRays;  // the same
     std::vector<kernels::EmitterLight> m_emitterLights;
     std::vector<PassTime> m_updatePasses;

@@ -8,7 +8,7 @@ namespace probegi::vulkan {
 struct GpuLighting::Impl {
     Impl(const Device& device, const Lighting& lighting, int maxLights);
 
-    /// Of a LightingBlock.
+    /// Address of a LightingBlock.
     VkDeviceAddress address() const noexcept { return block.address(); }
     kernels::LightingBlock describe(const Lighting& lighting) const;
 
@@ -17,7 +17,7 @@ struct GpuLighting::Impl {
     int skyWidth, skyHeight;
     Buffer lights, skyPixels, block;
     Staging staging;
-    // Source of the staged copies.
+    // Sources of the staged copies.
     std::vector<kernels::GpuLight> packed;
     std::vector<glm::vec3> pixels;
     std::vector<kernels::LightingBlock> described;

@@ -9,12 +9,12 @@ struct GpuScene::Impl {
     /// Throws.
     Impl(const Context& context, const Device& device, const Scene& scene, const ScenePose& pose,
          const GpuSceneDesc& desc, const SceneTracerType& type);
-    /// GpuScene::create() with any tracer, whatever desc asks for.
+    /// GpuScene::create() with the tracer `type` instead of the one that desc asks for.
     static Result<GpuScene> create(const Context& context, const Device& device, const Scene& scene,
                                    const ScenePose& pose, const GpuSceneDesc& desc, const SceneTracerType& type);
 
     vk::DescriptorSet set() const noexcept { return *sets.front(); }
-    /// A pass that has `// variants: tracers`.
+    /// This tracer's variant of a pass marked `// variants: tracers`.
     Shader shader(const char* pass) const { return tracerType.shader(pass); }
     kernels::SceneConstants constants() const;
     Bounds placedBounds() const;  // for the current placements

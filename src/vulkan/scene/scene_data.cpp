@@ -21,7 +21,7 @@ public:
     TexturePacker(const Scene& scene, const MipMaps& mips, SceneData& data)
         : m_scene(scene), m_mipMaps(mips), m_data(data) {}
 
-    /// Index of the record; -1 for no texture.
+    /// Returns the index of the record; -1 for no texture.
     int add(const TextureRef& ref, TexelKind kind) {
         if (ref.image < 0) return -1;
         const TextureImage& image = m_scene.images[std::size_t(ref.image)];

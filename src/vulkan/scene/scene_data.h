@@ -11,7 +11,7 @@
 
 namespace probegi::vulkan {
 
-// Offsets that src/vulkan/shaders/scene.glsl reads: GLSL's scalar layout has no padding, so neither may C++'s.
+// src/vulkan/shaders/scene.glsl reads these structs in scalar layout, which has no padding, so C++ must add none.
 static_assert(sizeof(kernels::GpuVertex) == 32 && offsetof(kernels::GpuVertex, uv) == 24);
 static_assert(sizeof(kernels::GpuTriangle) == 16 && offsetof(kernels::GpuTriangle, material) == 12);
 static_assert(sizeof(kernels::GpuMesh) == 20 && offsetof(kernels::GpuMesh, firstTangent) == 16);
@@ -39,12 +39,12 @@ struct SceneData {
     std::vector<kernels::GpuInstance> instances;  ///< by placement
     std::vector<kernels::GpuMaterial> materials;  ///< in the scene's order
     std::vector<kernels::GpuTexture> textures;
-    std::vector<std::uint32_t> texels;  ///< RGBA8 of every image in use and of its mips, each once
+    std::vector<std::uint32_t> texels;  ///< RGBA8 of each image in use and its mips, stored once
     std::vector<float> srgbTable;       ///< 256 values
     std::vector<kernels::GpuEmitter> emitters;
 };
 
-/// Geometry, emitters (or none) and mips must have been made from the scene. Without mips, look-ups use level 0.
+/// Geometry, emitters (may be empty) and mips must be those of the scene. Without mips, look-ups use level 0.
 SceneData packScene(const SceneGeometry& geometry, const EmitterSet& emitters, const Scene& scene,
                     const MipMaps& mips = {});
 
@@ -55,7 +55,7 @@ kernels::GpuInstance packInstance(const Placement& placement);
 
 std::vector<kernels::GpuLight> packLights(std::span<const PlacedLight> lights);
 
-/// The image's pixels are uploaded unchanged.
+/// The pixels of the sky's image are not part of it: they are uploaded unchanged.
 kernels::GpuSky packSky(const Sky& sky);
 
 }  // namespace probegi::vulkan

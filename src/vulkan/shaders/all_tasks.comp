@@ -1,4 +1,4 @@
-// The list of all probes, in the order of their slots.
+// Writes a task list of all probes, in slot order.
 #include "tasks.glsl"
 #include "volume.glsl"
 

@@ -1,9 +1,9 @@
-// New irradiance of all probes = weights x ray data, one matrix product for the frame since all probes share the rays'
-// directions; then encoding, hysteresis, dithered storage and the border, fused (DDGI paper, section 2.3, eq. 1,
-// Listings 1 and 3). A work group makes kTexels texels of kProbes probes, in steps of kRays rays through shared memory;
-// a thread holds a block of 4 texels x 4 probes in registers, so that seven loads of 16 floats feed 48 multiply-adds.
-// (A GPU's shared memory gives a register a clock, the same for all threads or not: a thread for a texel of eight
-// probes would read 25 floats for 24 multiply-adds.)
+// Irradiance of all probes = weights x ray data: one matrix product for the frame, since all probes share the rays'
+// directions. Encoding, hysteresis, dithered storage and the border are fused into the same pass (DDGI paper, section
+// 2.3, eq. 1, Listings 1 and 3). A work group computes kTexels texels of kProbes probes, staging kRays rays at a time
+// in shared memory. Each thread holds a block of 4 texels x 4 probes in registers, so that seven loads of 16 floats
+// feed 48 multiply-adds. (Shared memory delivers one register per clock, whether or not all threads read the same one:
+// a thread for one texel of eight probes would read 25 floats for 24 multiply-adds.)
 #include "emitter_lights.glsl"
 #include "filter.glsl"
 #include "ray_data.glsl"
@@ -23,19 +23,19 @@ layout(push_constant, scalar) uniform Push {
 const int kTexels = kIrradianceGroupTexels;
 const int kProbes = kIrradianceGroupProbes;
 const int kRays = 16;
-const int kBlock = 4;  // texels, and probes, of a thread; a thread loads a ray of as many probes
+const int kBlock = 4;  // texels, and probes, per thread; a thread also loads a ray for as many probes
 const int kTexelThreads = kTexels / kBlock;
 
 const int kFours = kProbes / 4;
 
-// Of four probes: red, green, blue, and 1 where the ray counts.
+// Per group of four probes: red, green, blue, and 1 if the ray counts.
 shared vec4 radiance[kFours][4][kRays];
 shared float weights[kRays][kTexels];
-shared TexelChange changes[kProbes][kTexelThreads];  // of a probe's texels in a thread
-shared uvec4 counts[kFours][kRays];                  // of what a thread has seen while loading: packSides()
+shared TexelChange changes[kProbes][kTexelThreads];  // of a probe's texels, by thread
+shared uvec4 counts[kFours][kRays];                  // packSides() of the rays that each thread loaded
 
-// The group's rays from `first` on, a ray of four probes a thread. What is beyond the last ray or probe counts as
-// nothing. Whole vectors are stored: no two threads write to the same one.
+// Loads the group's rays from `firstRay` on, each thread one ray for four probes. Entries beyond the last ray or probe
+// are zero. Each thread stores whole vectors, so that no two write to the same one.
 void loadRays(int tasks, int firstTask, int firstRay, inout uvec4 seen) {
     const int four = int(gl_LocalInvocationID.x) / kRays;
     const int i = int(gl_LocalInvocationID.x) % kRays;
@@ -64,7 +64,7 @@ void loadWeights(int firstTexel, int texels, int firstRay) {
     }
 }
 
-// Dither goes by a probe's number in its volume: a volume's probes do not depend on others.
+// The dither is seeded by the probe's number in its volume, so that it does not depend on other volumes.
 void store(GpuTask task, int texel, vec3 newMean, inout TexelChange change) {
     const int size = probegiField.irradianceTexels;
     const ivec3 place = poolTile(probegiField.tiles, int(task.slot));
@@ -80,7 +80,7 @@ void store(GpuTask task, int texel, vec3 newMean, inout TexelChange change) {
     const BlendRule rule = BlendRule(kept, push.significantChange, push.newDistribution);
     const uvec3 bits = blendIrradianceTexel(old, newMean, rule, push.linear != 0, push.ditherSeed,
                                             number * uint(size * size) + uint(texel));
-    // Exact in the image's halves: they were rounded already, with the dither.
+    // The image's halves hold these exactly: the dither has already rounded them.
     const vec4 stored = vec4(unpackHalf(bits.x), unpackHalf(bits.y), unpackHalf(bits.z), 0.0);
     imageStore(irradianceImage, ivec3(tile + at, place.z), stored);
     for (int copy = 0; copy < 3; ++copy) {
@@ -89,7 +89,7 @@ void store(GpuTask task, int texel, vec3 newMean, inout TexelChange change) {
     }
 }
 
-// Mean radiance that the looks at emitters add to a texel.
+// Mean radiance that the emitter samples add to a texel.
 vec3 fromEmitters(int task, int texel) {
     const int size = probegiField.irradianceTexels;
     const vec3 n = octTexelDirection(texel % size, texel / size, size);
@@ -128,7 +128,7 @@ void main() {
     const int myTexel = thread % kTexelThreads;
     const int myFour = thread / kTexelThreads;
     uvec4 seen = uvec4(0u);
-    vec4 sum[kBlock][4];  // [texel][channel], a component for each probe
+    vec4 sum[kBlock][4];  // [texel][channel], one component per probe
     for (int t = 0; t < kBlock; ++t)
         for (int c = 0; c < 4; ++c) sum[t][c] = vec4(0.0);
 

@@ -1,6 +1,6 @@
-// New distance moments of all probes from the frame's sparse weights, then hysteresis, dithered storage and the border
-// (DDGI paper, section 2.3). A work group makes all texels of kProbes probes. Their distances are read once, into
-// shared memory, side by side: a texel's entry is one load of them for all probes.
+// Distance moments of all probes from the frame's sparse weights, then hysteresis, dithered storage and the border
+// (DDGI paper, section 2.3). A work group computes all texels of kProbes probes. Their distances are read once into
+// shared memory, interleaved by probe, so that a weight needs one load for all probes.
 #include "filter.glsl"
 #include "ray_data.glsl"
 #include "tasks.glsl"
@@ -22,9 +22,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Tex
 };
 
 const int kProbes = kVisibilityGroupProbes;
-const int kRays = 256;  // that lie in shared memory at a time
+const int kRays = 256;  // in shared memory at a time
 
-shared vec4 distances[kRays];  // as fractions of the farthest, of each probe
+shared vec4 distances[kRays];  // as fractions of the farthest; a component per probe
 
 void store(GpuTask task, int texel, float evidence, vec2 newMoments) {
     const int size = probegiField.visibilityTexels;
@@ -46,7 +46,7 @@ void store(GpuTask task, int texel, float evidence, vec2 newMoments) {
     }
 }
 
-// The group's rays from `first` on. Tasks beyond the last repeat it: their result is not stored.
+// Loads the group's rays from `first` on. Tasks beyond the last repeat it; their results are not stored.
 void loadDistances(int firstTask, int first) {
     Tasks list = Tasks(push.tasks);
     const int last = int(list.counts.tasks) - 1;
@@ -87,7 +87,7 @@ void main() {
             for (; k < seen.count; ++k) {
                 const GpuRayWeight entry = RayWeights(push.visibilityWeights).at[k * texels + texel];
                 const int ray = int(entry.ray) - first;
-                if (ray >= kRays) break;  // entries are in the order of rays
+                if (ray >= kRays) break;  // entries are sorted by ray
                 const vec4 d = distances[ray];
                 mean += entry.weight * d;
                 meanSquare += entry.weight * (d * d);

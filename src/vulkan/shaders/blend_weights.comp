@@ -1,6 +1,6 @@
-// Weights of the frame's rays for all texels of a probe, the same for all probes (DDGI paper, eq. 1 and its
-// power-cosine form). One thread a texel. Irradiance weights are a dense matrix. Visibility weights fall so fast that
-// nine rays in ten count for less than a part in 10^8: they are lists.
+// Weights of the frame's rays for each texel, the same for all probes (DDGI paper, eq. 1 and its power-cosine form).
+// One thread per texel. Irradiance weights are a dense matrix. Visibility weights are lists, since they fall so fast
+// that nine rays in ten contribute less than a part in 10^8.
 #include "common.glsl"
 
 #include "kernels/abi/gpu_passes.h"
@@ -39,7 +39,7 @@ void visibilityTexel(int texel) {
     for (int ray = 0; ray < push.rays; ++ray)
         if (dot(n, directions.at[ray]) > leastCosine)
             sum += visibilityWeight(n, directions.at[ray], push.visibilityExponent);
-    // A texel that no ray comes near (few rays, high exponent) has no entries.
+    // A texel without rays near it (few rays, high exponent) has no entries.
     uint count = 0;
     if (sum > 1e-20) {
         for (int ray = 0; ray < push.rays; ++ray) {

@@ -1,4 +1,4 @@
-// What every pass includes first: extensions, typed views of buffer addresses, the number of a thread.
+// Included first by every pass: extensions, typed views of buffer addresses, indices of threads.
 #ifndef PROBEGI_COMMON_GLSL
 #define PROBEGI_COMMON_GLSL
 
@@ -17,15 +17,15 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Vec3s {
     vec3 at[];
 };
 
-// All passes have groups of this size (Recorder::dispatchOver).
+// Size of the groups of all passes (Recorder::dispatchOver).
 layout(local_size_x = 64) in;
 
-// Number of this thread where Recorder::dispatchOver() spread the groups over two axes.
+// Index of this thread if Recorder::dispatchOver() has spread the groups over two axes.
 uint globalIndex() {
     return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
 }
 
-// Number of this group's block where Recorder::dispatchOver() spread blocks over x and z.
+// Index of this group's block if Recorder::dispatchOver() has spread the blocks over x and z.
 uint blockIndex() {
     return gl_WorkGroupID.z * gl_NumWorkGroups.x + gl_WorkGroupID.x;
 }

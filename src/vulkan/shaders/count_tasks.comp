@@ -1,4 +1,4 @@
-// The groups of an update's passes, from the number of its tasks.
+// Work group counts of an update's indirect dispatches, from the number of its tasks.
 #include "tasks.glsl"
 
 layout(push_constant, scalar) uniform Push {

@@ -1,4 +1,4 @@
-// What the probes' looks at emitters brought, in a buffer.
+// The light of the probes' emitter samples, in a buffer.
 #ifndef PROBEGI_EMITTER_LIGHTS_GLSL
 #define PROBEGI_EMITTER_LIGHTS_GLSL
 

@@ -1,5 +1,4 @@
-// The temporal filter's buffers (kernels/blend/temporal_filter.h), for the passes around a blend and the blends
-// themselves.
+// The temporal filter's buffers (kernels/blend/temporal_filter.h), for the blends and the passes before and after them.
 #ifndef PROBEGI_FILTER_GLSL
 #define PROBEGI_FILTER_GLSL
 

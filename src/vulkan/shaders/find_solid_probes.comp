@@ -1,5 +1,5 @@
-// After a blend: from which probes a free line leads into the open, so that the coming update knows which of those that
-// see backs stand in solid matter (kernels/probe/solid_probe.h). One step from probe to probe an update.
+// After a blend: finds the probes that have a path of clear lines into the open. The next update takes those that have
+// none, and see backs, for solid (kernels/probe/solid_probe.h). Paths grow by one line per update.
 #include "sides.glsl"
 #include "tasks.glsl"
 #include "volume.glsl"
@@ -10,7 +10,7 @@ layout(push_constant, scalar) uniform Push {
     SolidPush push;
 };
 
-// Steps into the open by way of the 26 neighbours.
+// Length of the shortest path into the open through one of the 26 neighbours.
 uint stepsByNeighbours(GpuTask task) {
     const Volume volume = probegiField.volumes[task.volume];
     const int probe = int(task.slot);

@@ -1,5 +1,5 @@
-// The probes' emitter samples, the steps of src/field/probe_emitters.cpp: choose a point, trace
-// towards it, see what it sends. Neighbouring threads take the same look of neighbouring probes.
+// The probes' emitter samples, in the steps of src/field/probe_emitters.cpp: choose a point on an emitter, trace a ray
+// to it, take what it emits. Neighbouring threads take the same sample of neighbouring probes.
 // variants: tracers
 #include "emitter_lights.glsl"
 #include "rays.glsl"
@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Push {
     TracePush push;
 };
 
-// Number of the first triangle whose numbers reach `choice`.
+// Index of the first triangle whose range of numbers reaches `choice`.
 int chosenEmitter(SceneEmitters emitters, uint choice) {
     int low = 0;
     int high = PROBEGI_SCENE.emitterCount - 1;
@@ -27,7 +27,7 @@ int chosenEmitter(SceneEmitters emitters, uint choice) {
     return low;
 }
 
-// What arrives from the point; nothing where something else is in between.
+// Radiance that arrives from the point; 0 if something else is in between.
 vec3 arriving(vec3 probe, EmitterAim aim, int material) {
     if (!(aim.cosine > 0.0)) return vec3(0.0);
     const float offset = rayOffset(probe + aim.direction * aim.distance, PROBEGI_SCENE.magnitude);

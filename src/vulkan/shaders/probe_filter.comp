@@ -1,4 +1,5 @@
-// After the blend: noise from how far the texels moved, and the fixed rays join their averages. A thread a probe.
+// After the blend: estimates the noise from the change of the texels and adds the fixed rays to their averages. One
+// thread per probe.
 #include "filter.glsl"
 #include "tasks.glsl"
 #include "volume.glsl"

@@ -1,4 +1,4 @@
-// What the fixed rays of each probe tell of its lag. A thread a probe.
+// Measures each probe's lag by its fixed rays. One thread per probe.
 #include "filter.glsl"
 #include "ray_data.glsl"
 #include "tasks.glsl"

@@ -1,4 +1,4 @@
-// Each probe's windows for the coming blend, from its own and its neighbours' lag. A thread a probe.
+// Each probe's windows for the blend that follows, from its own and its neighbours' lag. One thread per probe.
 #include "filter.glsl"
 #include "tasks.glsl"
 #include "volume.glsl"

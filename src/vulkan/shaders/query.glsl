@@ -1,15 +1,15 @@
-// The field in your own shaders: how much light arrives at a point that faces a normal (DDGI paper, section 2.2).
+// The field in your own shaders: irradiance at a point for a surface normal (DDGI paper, section 2.2).
 //
-//     #define PROBEGI_SET 1        // descriptor set, and the first of four bindings in it, that were given to
+//     #define PROBEGI_SET 1        // the descriptor set, and the first of the four bindings in it, that you passed to
 //     #define PROBEGI_BINDING 0    // GpuField::queryBindings() and writeQueryBindings()
 //     #include "probegi/query.glsl"
 //     ...
-//     vec3 e = probegiIrradiance(position, normal, toViewer);  // W m^-2; vec3(0): nobody looks
+//     vec3 e = probegiIrradiance(position, normal, toViewer);  // W m^-2; toViewer may be vec3(0): no viewer
 //     color += albedo * e / 3.14159265;                        // what a Lambert surface reflects
 //
-// Needs GLSL 4.60 and GL_EXT_scalar_block_layout. All names begin with probegi, PROBEGI, or are those of the kernels
-// below. With PROBEGI_COUNT_FALLBACKS defined, queries whose cage had too little weight are counted for
-// Field::fallbackQueries(); the stage then needs atomics on storage buffers.
+// Needs GLSL 4.60 and GL_EXT_scalar_block_layout. All names begin with probegi or PROBEGI, or are those of the kernels
+// included below. If PROBEGI_COUNT_FALLBACKS is defined, queries whose cage had too little weight are counted for
+// Field::fallbackQueries(); the shader stage then needs atomics on storage buffers.
 #ifndef PROBEGI_QUERY_GLSL
 #define PROBEGI_QUERY_GLSL
 
@@ -43,14 +43,14 @@ layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 3, scalar) PROBEGI_STATES_
 }
 probegiStates;
 
-// Which volume has the probe in a slot.
+// The volume that owns a slot.
 int probegiVolumeOf(int slot) {
     int volume = 0;
     while (volume + 1 < probegiField.volumeCount && slot >= probegiField.volumes[volume + 1].firstSlot) ++volume;
     return volume;
 }
 
-// For ray data of your own: how many probes there are, and where each stands. Its rays begin there.
+// For ray data of your own: the number of probes, and the position of each, where its rays begin.
 int probegiProbeCount() {
     const Volume last = probegiField.volumes[probegiField.volumeCount - 1];
     return last.firstSlot + volumeProbes(last);
@@ -60,7 +60,7 @@ vec3 probegiProbePosition(int slot) {
     return probePosition(v, probeCell(v, slot));
 }
 
-// Texture coordinates of a point of a slot's map, `texel`: octTexelPosition().
+// Atlas coordinates of a point of a slot's map; `texel` is the point's octTexelPosition().
 vec3 probegiIrradianceAt(int slot, vec2 texel) {
     const ivec3 tile = poolTile(probegiField.tiles, slot);
     return vec3(atlasCoordinates(tile, texel, probegiField.irradianceTexels, probegiField.irradianceTexelSize),
@@ -72,7 +72,7 @@ vec3 probegiVisibilityAt(int slot, vec2 texel) {
                 float(tile.z));
 }
 
-// How the look-up reads the field: what kernels/lookup/access.h asks for.
+// How the look-up reads the field: the functions that kernels/lookup/access.h requires.
 struct Access {
     int rules;
     int guard;
@@ -121,7 +121,7 @@ void countFallback(Access access) {
 
 #include "kernels/lookup/irradiance.h"
 
-// Mean and mean square of distance, as fractions of the farthest, that a probe stores in a direction.
+// Mean and mean square of the distance that a probe stores for a direction, as fractions of the farthest.
 vec2 probegiMoments(int slot, vec3 direction) {
     const Access access = probegiAccess();
     vec2 moments;
@@ -129,7 +129,7 @@ vec2 probegiMoments(int slot, vec3 direction) {
     return moments;
 }
 
-// The volume that answers at a point: the first that holds it, else the nearest.
+// The volume used at a point: the first that contains it, otherwise the nearest.
 int probegiVolumeAt(vec3 point) {
     if (probegiField.volumeCount == 1) return 0;
     VolumeChoice choice = noVolume();
@@ -137,8 +137,8 @@ int probegiVolumeAt(vec3 point) {
     return choice.volume;
 }
 
-// Irradiance E in W m^-2 at a point of a surface that faces `normal`, seen from the direction `viewer` (both unit; zero
-// stands for the normal, where nobody looks). Outside all volumes the nearest cell answers.
+// Irradiance E in W m^-2 at a point of a surface with this normal, seen from the direction `viewer` (both unit vectors;
+// without a viewer pass zero, which stands for the normal). Outside all volumes, the nearest cell is used.
 vec3 probegiIrradiance(vec3 point, vec3 normal, vec3 viewer) {
     return irradianceIn(probegiAccess(), probegiField.volumes[probegiVolumeAt(point)], point, normal, viewer);
 }

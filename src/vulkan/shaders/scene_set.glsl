@@ -1,4 +1,4 @@
-// Set 1 of the library's own passes: a scene, and the tracer that the variant of the shader is for.
+// Set 1 of the library's own passes: a scene, and the tracer of this variant of the shader.
 #ifndef PROBEGI_SCENE_SET_GLSL
 #define PROBEGI_SCENE_SET_GLSL
 
@@ -13,7 +13,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Lig
     LightingBlock block;
 };
 
-// The scene with the pass's lights and sky: useLighting() comes first in every main().
+// The scene with the pass's lights and sky. Every main() must call useLighting() or useSceneOnly() first.
 SceneAddresses litScene;
 #define PROBEGI_SCENE litScene
 #include "scene.glsl"

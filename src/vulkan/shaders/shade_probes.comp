@@ -1,5 +1,5 @@
 // Light along the rays of the tasks: sky, emission, punctual lights with shadow rays, and the light of earlier
-// bounces from last frame's field (DDGI paper, section 2.3).
+// bounces, from the field of the last frame (DDGI paper, section 2.3).
 // variants: tracers
 #include "direct_light.glsl"
 #include "ray_data.glsl"
@@ -16,12 +16,12 @@ layout(push_constant, scalar) uniform Push {
     TracePush push;
 };
 
-// Light along a ray: that of lights, emission and sky, and the light by way of the field.
+// Light along a ray: `direct` from lights, emission and sky, `bounced` from the field.
 struct RayLight {
     vec3 direct;
     vec3 bounced;
     float distance;  // metres; negative: minus the distance to a backface
-    bool back;       // of a surface with two sides
+    bool back;       // hit the back of a double-sided surface
 };
 
 RayDatum datumOf(RayLight light) {
@@ -38,7 +38,7 @@ vec3 punctualIrradiance(Surface surface) {
     return e;
 }
 
-// Of an emission that an update ray met; looks at emitters bring the rest. Fixed rays see all of it.
+// Weight of an emission for the ray that hit it; emitter samples contribute the rest. Fixed rays get the full emission.
 float rayShare(Surface surface, float distance, bool isFixed) {
     if (push.looks == 0 || isFixed) return 1.0;
     return rayEmissionShare(push.rays, push.looks, emitterPerArea(surface.material), distance);

@@ -1,4 +1,4 @@
-// kernels/probe/solid_probe.h's ProbeSides in a buffer.
+// ProbeSides (kernels/probe/solid_probe.h) in a buffer.
 #ifndef PROBEGI_SIDES_GLSL
 #define PROBEGI_SIDES_GLSL
 

@@ -1,4 +1,4 @@
-// Surfaces at given hits; entries of missed rays are left as they are.
+// Surfaces at given hits; entries of rays that missed are not written.
 // variants: tracers
 #include "rays.glsl"
 #include "scene_set.glsl"

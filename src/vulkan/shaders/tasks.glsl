@@ -1,4 +1,4 @@
-// The list of an update's tasks in a buffer.
+// The task list of an update, in a buffer.
 #ifndef PROBEGI_TASKS_GLSL
 #define PROBEGI_TASKS_GLSL
 

@@ -1,5 +1,6 @@
-// Closest hits of the rays of all probes. Neighbouring threads take the same ray of neighbouring probes: parallel rays
-// from nearby origins meet the same nodes. Hits lie in the order of threads, [ray][task], for shade_probes.comp alone.
+// Closest hits of the rays of all tasks. Neighbouring threads take the same ray of neighbouring probes, since parallel
+// rays from nearby origins visit the same nodes. Hits are stored in thread order, [ray][task]; only shade_probes.comp
+// reads them.
 // variants: tracers
 #include "rays.glsl"
 #include "scene_set.glsl"

@@ -1,5 +1,5 @@
-// Triangles by the library's own BVH: any Vulkan device. Its block (BvhSceneTracer::block) has the addresses of nodes,
-// triangles and instances, and the roots of the world and of the instances.
+// Triangles by the library's own BVH, for any Vulkan device. Its block (BvhSceneTracer::block) has the addresses of
+// nodes, triangles and instances, and the roots of the world and of the instances.
 #ifndef PROBEGI_TRACER_BVH_GLSL
 #define PROBEGI_TRACER_BVH_GLSL
 

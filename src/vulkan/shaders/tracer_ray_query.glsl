@@ -10,10 +10,10 @@
 
 #define RAY_QUERY_SCENE accelerationStructureEXT(sceneConstants.tracer.addresses[0])
 
-// The placement of an intersection; -1: the world (src/vulkan/tracers/ray_query_scene_tracer.cpp).
+// Placement of an intersection; -1: the world (src/vulkan/tracers/ray_query_scene_tracer.cpp).
 #define RAY_QUERY_INSTANCE(query, committed) (rayQueryGetIntersectionInstanceCustomIndexEXT(query, committed) - 1)
 
-// Candidates are points of masked triangles: opaque ones are committed without a word.
+// Only masked triangles come up as candidates: opaque ones are committed automatically.
 #define RAY_QUERY_RUN(query)                                                                                     \
     while (rayQueryProceedEXT(query)) {                                                                          \
         if (alphaPasses(RAY_QUERY_INSTANCE(query, false), rayQueryGetIntersectionGeometryIndexEXT(query, false), \

@@ -1,4 +1,4 @@
-// Rays, hits and surfaces, and how tracers of triangles number what they hit.
+// Rays, hits and surfaces, and the numbering of geometries by tracers of triangles.
 #ifndef PROBEGI_VULKAN_TYPES_GLSL
 #define PROBEGI_VULKAN_TYPES_GLSL
 

@@ -1,4 +1,4 @@
-// Set 0 of the library's own passes: a volume of probes. Bindings 0 to 3 are those of query.glsl.
+// Set 0 of the library's own passes: a field. Bindings 0 to 3 are those of query.glsl.
 #ifndef PROBEGI_VOLUME_GLSL
 #define PROBEGI_VOLUME_GLSL
 

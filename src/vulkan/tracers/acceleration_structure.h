@@ -15,7 +15,7 @@ public:
                           vk::BuildAccelerationStructureFlagsKHR flags, Geometries geometries, Ranges ranges);
 
     void recordBuild(const Recorder& recorder, bool update = false) const;
-    /// After the build has finished; there can be no update afterwards.
+    /// Call it after the build has finished; updates are impossible afterwards.
     void releaseScratch() noexcept { m_scratch = Buffer(); }
 
     VkDeviceAddress address() const noexcept { return m_address; }

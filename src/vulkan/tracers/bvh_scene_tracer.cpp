@@ -16,7 +16,7 @@ TriangleSoup soupOf(const SurfaceMesh& mesh) {
             .triangleCount = mesh.triangles.size()};
 }
 
-/// The library's own BVH, built on the context's threads. The top level stands first in the array of nodes, so that a
+/// The library's own BVH, built on the context's threads. The top level is at the start of the node array, so that a
 /// refit overwrites it in place.
 class BvhSceneTracer final : public SceneTracer {
 public:
@@ -94,8 +94,8 @@ private:
 std::unique_ptr<SceneTracer> makeBvhSceneTracer(const TracedScene& scene) {
     if (!treesFollowAHeuristic())
         scene.device.impl().warn(
-            "this ProbeGI was built without Embree: the trees of the BVH tracer are plain halves, in which "
-            "rays take longer; use ray query, or build with PROBEGI_EMBREE=ON");
+            "this ProbeGI was built without Embree, so the BVH tracer uses median splits, which make rays slower; "
+            "use ray query, or build with PROBEGI_EMBREE=ON");
     return std::make_unique<BvhSceneTracer>(scene);
 }
 

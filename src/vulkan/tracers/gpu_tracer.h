@@ -7,8 +7,7 @@
 
 namespace probegi::vulkan {
 
-/// A scene in GPU memory as a Tracer; what moves is what GpuSceneDesc said. Batches are cut into pieces, so that memory
-/// for them stays bounded.
+/// A scene in GPU memory as a Tracer; GpuSceneDesc says what can move. Batches are split, to bound the memory for them.
 class GpuTracer final : public MovableTracer {
 public:
     /// Uploads the scene and waits. Throws.

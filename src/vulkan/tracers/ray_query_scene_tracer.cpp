@@ -19,9 +19,9 @@ VkTransformMatrixKHR rowsOf(const glm::mat4& m) {
     return rows;
 }
 
-/// VK_KHR_acceleration_structure over the scene's vertices. A bottom level for the world and for each group, in the
-/// order of SceneData::meshes, each with its opaque and its masked mesh as geometries 0 and 1; a top level with the
-/// world and the placements. Custom indices: 0 for the world, placement + 1.
+/// VK_KHR_acceleration_structure over the scene's vertices. There is a bottom level for the world and one for each
+/// group, in the order of SceneData::meshes, with the opaque and the masked mesh as geometries 0 and 1, and a top level
+/// of the world and the placements. Custom index: 0 for the world, placement + 1 otherwise.
 class RayQuerySceneTracer final : public SceneTracer {
 public:
     explicit RayQuerySceneTracer(const TracedScene& scene) : m_device(scene.device) {
@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    // Builds want three indices a triangle and nothing between them.
+    // Builds require tightly packed indices, three per triangle.
     void packIndices(const SceneData& data) {
         m_indices.reserve(3 * data.triangles.size());
         for (const kernels::GpuTriangle& t : data.triangles)
@@ -86,7 +86,7 @@ private:
             const std::size_t end =
                 index + 1 < data.meshes.size() ? data.meshes[index + 1].firstVertex : data.vertices.size();
             const auto highest = std::uint32_t(std::max<std::size_t>(end, mesh.firstVertex + 1) - mesh.firstVertex - 1);
-            // A mesh without triangles may begin where the buffers end: its addresses would be somebody else's.
+            // A mesh without triangles may start at the end of the buffers: its addresses would be outside them.
             const std::uint64_t vertex = mesh.triangleCount ? mesh.firstVertex : 0;
             const std::uint64_t triangle = mesh.triangleCount ? mesh.firstTriangle : 0;
             const vk::AccelerationStructureGeometryTrianglesDataKHR triangles(

@@ -4,7 +4,7 @@
 
 namespace probegi::vulkan {
 
-// NAME_scene_tracer.cpp
+// Defined in NAME_scene_tracer.cpp.
 std::unique_ptr<SceneTracer> makeBvhSceneTracer(const TracedScene& scene);
 std::unique_ptr<SceneTracer> makeRayQuerySceneTracer(const TracedScene& scene);
 
@@ -16,13 +16,12 @@ bool always(const Device&) {
 bool hasRayQuery(const Device& device) {
     return device.rayQuery();
 }
-// A software device's ray query runs on the same cores as everything else: with Mesa 25.0 it took eight times as long
-// as the BVH.
+// A software device's ray query gains nothing from hardware: with Mesa 25.0 it took eight times as long as the BVH.
 bool hasRayQueryInHardware(const Device& device) {
     return device.rayQuery() && device.info().type != kSoftwareDevice;
 }
 
-/// All there are; those that TracerKind::automatic would rather have come first.
+/// All tracers, in the order in which TracerKind::automatic prefers them.
 constexpr SceneTracerType kTracers[] = {
     {"ray_query", TracerKind::rayQuery, "ray query", hasRayQuery, hasRayQueryInHardware, makeRayQuerySceneTracer},
     {"bvh", TracerKind::bvh, "", always, always, makeBvhSceneTracer},

@@ -2,8 +2,8 @@
 
 #include "kernels/shade/bsdf.h"
 
-// Roughness and angles keep away from the poles of the formulas, where a rounding of the direction is magnified by
-// 1 / alpha^2 and 1 / cosine, and sampled normals from the horizon: there both sides are right, and differ.
+// Roughness and angles avoid the poles of the formulas, which amplify the rounding of a direction by 1 / alpha^2 and
+// 1 / cosine, and sampled normals avoid the horizon: there both sides are right and differ.
 Bsdf takeMaterial(INOUT(Lane) lane) {
     const vec3 baseColor = takeVector(lane, 0.0f, 1.0f);
     const float metallic = takeUnit(lane);

@@ -2,7 +2,8 @@
 
 #include "kernels/trace/bvh_node.h"
 
-// Any bits make a node: planes may be inside out, slots empty. Exponents stay where sums round alike on both sides.
+// Any bits make a node: planes may be swapped, slots empty. Exponents are limited so that sums round alike on both
+// sides.
 BvhNode takeNode(INOUT(Lane) lane) {
     BvhNode node;
     node.origin = takeVector(lane, -3.0f, 3.0f);
@@ -11,7 +12,7 @@ BvhNode takeNode(INOUT(Lane) lane) {
     node.children = 0u;
     node.leaves = 0u;
     node.meta = uvec2(0x26622320u, (kBvhInnerMeta + 4u) * 0x01010101u + 0x03020100u);
-    // The first four children anything, the last four right side out and wide.
+    // The first four children are arbitrary, the last four are valid and wide.
     node.lowerX = uvec2(takeBits(lane), 0x120c0426u);
     node.lowerY = uvec2(takeBits(lane), 0x01020304u);
     node.lowerZ = uvec2(takeBits(lane), 0x10203040u);

@@ -22,7 +22,7 @@ void evaluate(INOUT(Lane) lane) {
     giveHit(lane, bvhClosestHit(origin, 0.0f, direction, 1e30f, kBvhNone, kBvhNone));
     giveHit(lane, bvhTraverse(origin, 0.5f, direction, far, 0u, 3u, true));
     giveBits(lane, bvhOccluded(origin, 0.0f, direction, far, 0u, 3u) ? 1u : 0u);
-    // Nothing there to be hit, and the answer comes.
+    // An invalid ray must terminate without a hit.
     giveHit(lane, bvhClosestHit(origin, 0.0f, vec3(uintBitsToFloat(0x7fc00000u)), 1e30f, 0u, 3u));
 
     uvec2 group = bvhRootGroup(5u);

@@ -7,7 +7,7 @@
 
 KERNELS_BEGIN
 
-// All children have the box -8..8 but for rounding, so that every ray goes everywhere.
+// All children have a box of about -8..8, so that every ray visits all of them.
 KERNEL_FN BvhNode bvhNode(uint index) {
     BvhNode node;
     node.origin = vec3(-8.0f, -8.0f, -8.0f);

@@ -4,7 +4,7 @@
 
 #include "kernels/lookup/cage.h"
 
-// Whether the bias moves the point across a layer of probes may differ by rounding: the place in the grid may not.
+// Rounding may put the biased point on either side of a layer of probes, so base and alpha are compared by their sum.
 void evaluate(INOUT(Lane) lane) {
     const Volume v = takeVolume(lane);
     const vec3 point = takeVector(lane, -8.0f, 8.0f);

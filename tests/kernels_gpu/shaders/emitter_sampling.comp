@@ -28,7 +28,7 @@ void evaluate(INOUT(Lane) lane) {
     const EmitterAim at = aimAtEmitter(origin, origin, vec3(0.0f), vec3(0.0f), vec2(0.25f, 0.5f));
     give(lane, at.distance, 0.0f);
     give(lane, at.cosine, 0.0f);
-    // Of almost parallel edges the normal is hardly known, so the cosine is given by hand.
+    // With almost parallel edges the normal is too inexact, so the cosine is set directly.
     EmitterAim fixedAim;
     fixedAim.direction = edge1;
     fixedAim.distance = length(corner - origin);

@@ -2,7 +2,7 @@
 
 #include "kernels/abi/gpu_passes.h"
 
-// Structs only: that both languages know them by the same members.
+// Structs only: checks that their members are the same in both languages.
 void evaluate(INOUT(Lane) lane) {
     QueryPush query;
     query.queries = uvec2(takeBits(lane), 1u);

@@ -1,2 +1,2 @@
-// Guards read a field as the look-up does.
+// Guards read a field by the same functions as the look-up.
 #include "lookup_access.h"

@@ -2,7 +2,7 @@
 
 #include "kernels/probe/irradiance_encoding.h"
 
-// Over the twelve decades that the format holds, zero and below included.
+// Over the twelve decades of the format, including zero and negative values.
 void evaluate(INOUT(Lane) lane) {
     const float mean = exp2(takeBetween(lane, -40.0f, 40.0f));
     const float stored = encodeIrradiance(mean);

@@ -1,6 +1,6 @@
 // One random case of a kernel test, in GLSL and C++ at once: a shader takes random inputs and gives results, and the
-// same text, compiled as C++, says what they should have been. `tolerance` is absolute for values up to 1 and relative
-// above; not-a-number agrees with nothing but itself. Take once a statement: C++ does not order operands.
+// same text compiled as C++ gives the expected ones. `tolerance` is absolute for values up to 1 and relative above; NaN
+// agrees only with NaN. Take one input per statement, since C++ does not order operands.
 #ifndef PROBEGI_TESTS_KERNELS_GPU_SHADERS_LANE_H
 #define PROBEGI_TESTS_KERNELS_GPU_SHADERS_LANE_H
 
@@ -59,7 +59,7 @@ void main() {
 
 KERNELS_BEGIN
 
-// Uniform in lower..upper; the lower end and the middle come up often.
+// Uniform in lower..upper; the lower end and the middle are frequent.
 KERNEL_FN float takeBetween(INOUT(Lane) lane, float lower, float upper) {
     return lower + (upper - lower) * (float(takeBits(lane) >> 8u) * (1.0f / 16777216.0f));
 }
@@ -82,7 +82,7 @@ KERNEL_FN vec3 takeVector(INOUT(Lane) lane, float lower, float upper) {
     return vec3(x, y, z);
 }
 
-// Unit; directions along the axes come up often.
+// A unit vector; directions along the axes are frequent.
 KERNEL_FN vec3 takeDirection(INOUT(Lane) lane) {
     const vec3 v = takeVector(lane, -1.0f, 1.0f);
     return dot(v, v) > 1e-6f ? normalize(v) : vec3(0.0f, 0.0f, 1.0f);

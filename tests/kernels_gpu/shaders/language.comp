@@ -2,8 +2,8 @@
 
 #include "kernels/language.h"
 
-// The built-in functions that the kernels may use. Vulkan asks for 2^-11 of sin and cos and leaves tan and pow loose;
-// the kernels need better, and a device that falls short should be known before its pictures are looked at.
+// The built-in functions that kernels may use. Vulkan requires only 2^-11 of sin and cos, and less of tan and pow. The
+// kernels need more precision, so devices that fall short must fail here rather than in pictures.
 void giveScalars(INOUT(Lane) lane, float x, float unit) {
     give(lane, kPi, 0.0f);
     give(lane, sin(x), 2e-5f);

@@ -1,4 +1,4 @@
-// A field of closed form for kernels/lookup and kernels/guards. A place in a map is a direction.
+// A field of closed form for kernels/lookup and kernels/guards. A point in a map is a direction.
 #ifndef PROBEGI_TESTS_KERNELS_GPU_SHADERS_LOOKUP_ACCESS_H
 #define PROBEGI_TESTS_KERNELS_GPU_SHADERS_LOOKUP_ACCESS_H
 
@@ -10,7 +10,7 @@ struct Access {
     int rules;
     int guard;
     float selfShadowBias;
-    float walls;  // share of backs that every third probe has
+    float walls;  // share of backs of every third probe
 #ifdef __cplusplus
     using MapPoint = vec3;
 #endif

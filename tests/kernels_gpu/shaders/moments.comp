@@ -15,7 +15,7 @@ void evaluate(INOUT(Lane) lane) {
     give(lane, neighbourVisibility(mean, mean * mean + 0.01f + variance, distance), 2e-4f);
     give(lane, momentsSeen(access, v, 5, fromProbe), 5e-4f);
     give(lane, momentsBetween(access, v, 5, axisPoint(access, v, 1, true), distance), 5e-4f);
-    // Where the farthest distance ends the answer jumps.
+    // The result is discontinuous at the farthest distance.
     if (abs(length(fromProbe) * v.inverseMaxDistance - 1.0f) < 1e-3f)
         give(lane, 0.0f, 0.0f);
     else

@@ -2,7 +2,7 @@
 
 #include "kernels/blend/probe_blend.h"
 
-// The hysteresis jumps at its thresholds; values are drawn continuously, so that none lies within rounding of one.
+// The hysteresis is discontinuous at its thresholds; values are continuous, so that none is within rounding of one.
 void evaluate(INOUT(Lane) lane) {
     const vec3 texel = takeDirection(lane);
     const vec3 ray = takeDirection(lane);
@@ -14,7 +14,7 @@ void evaluate(INOUT(Lane) lane) {
     rule.significantChange = takeBetween(lane, 0.0f, 0.5f);
     rule.newDistribution = takeBetween(lane, 0.0f, 1.0f);
 
-    // Any bits, not-a-number and infinity among them.
+    // Any bits, including NaN and infinity.
     const float anything = uintBitsToFloat(takeBits(lane));
     give(lane, safeRadiance(anything), 1e-6f);
     give(lane, safeDistance(anything), 1e-6f);

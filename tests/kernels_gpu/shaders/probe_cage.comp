@@ -2,7 +2,7 @@
 
 #include "kernels/volume/probe_cage.h"
 
-// Grid positions are given in quarters: far from a whole number, where a rounding would choose another probe, or on it.
+// Grid positions are multiples of a quarter: exactly on a probe or far from it, where rounding cannot change the cell.
 void evaluate(INOUT(Lane) lane) {
     const vec3 position = takeVector(lane, -20.0f, 20.0f);
     const vec3 origin = takeVector(lane, -5.0f, 5.0f);

@@ -22,7 +22,7 @@ void evaluate(INOUT(Lane) lane) {
         give(lane, chebyshevWeight(mean, mean * mean + 0.01f + variance, distance, rules), 2e-4f);
         give(lane, chebyshevWeight(0.0f, 0.0f, unit + 0.01f, rules), 1e-6f);
         give(lane, chebyshevWeight(0.0f, 0.0f, 0.0f, rules), 1e-6f);
-        // The soft edge is steep: it magnifies a rounding of the share.
+        // The soft edge is steep and amplifies the rounding of the share.
         give(lane, outsideWeight(unit, rules), 1e-5f);
     }
     give(lane, trilinearFactor(0.0f, unit), 1e-6f);

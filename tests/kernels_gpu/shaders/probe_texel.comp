@@ -2,8 +2,8 @@
 
 #include "kernels/probe/probe_texel.h"
 
-// A dithered rounding magnifies the last bit of a value to a step of the storage where the two meet; so blends are
-// compared to a step, and bit for bit where no rounding comes before the dither.
+// Dithered rounding can turn a difference in the last bit into a step of the storage format, so blends are compared to
+// a step, but bit for bit if nothing is rounded before the dither.
 void evaluate(INOUT(Lane) lane) {
     const vec3 oldStored = takeVector(lane, 0.0f, 2.0f);
     const vec3 newMean = takeVector(lane, 0.0f, 30.0f);

@@ -8,7 +8,8 @@ void giveSample(INOUT(Lane) lane, LightSample s, float tolerance) {
     giveVec3(lane, s.irradianceAtNormal, tolerance);
 }
 
-// The cone's ramp magnifies a rounding of the cosine by 1 / (cosInner - cosOuter), the inverse square what is near.
+// The cone's ramp amplifies the rounding of the cosine by 1 / (cosInner - cosOuter), the inverse square that of small
+// distances.
 void evaluate(INOUT(Lane) lane) {
     const vec3 direction = takeDirection(lane);
     const vec3 light = takeVector(lane, -5.0f, 5.0f);

@@ -2,7 +2,7 @@
 
 #include "kernels/trace/ray_offset.h"
 
-// A range that is a power of two: the random position itself is then exact.
+// The range is a power of two, so that the random position is exact.
 void evaluate(INOUT(Lane) lane) {
     const vec3 position = takeVector(lane, -1024.0f, 1024.0f);
     const vec3 normal = takeDirection(lane);

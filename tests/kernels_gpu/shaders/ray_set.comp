@@ -6,14 +6,14 @@ void giveRotation(INOUT(Lane) lane, mat3 r) {
     for (int column = 0; column < 3; ++column) giveVec3(lane, r[column], 5e-6f);
 }
 
-// sin and cos of up to 2 pi are all that differs.
+// Only sin and cos of up to 2 pi differ.
 void evaluate(INOUT(Lane) lane) {
     const uint count = 8u + takeBits(lane) % 4089u;
     const uint index = takeBits(lane) % count;
     giveVec3(lane, sphericalFibonacci(index, count), 5e-6f);
     give(lane, fibonacciTurn(index), 0.0f);
     give(lane, signedTurn(index), 0.0f);
-    // Of the shift's second part a whole turn may be missing: the directions have none.
+    // The second component of the shift may differ by a whole turn, which does not change the directions.
     const uint volume = takeBits(lane);
     const vec2 shift = frameShift(volume, takeBits(lane) % 100000u, count);
     give(lane, shift.x, 0.0f);

@@ -12,7 +12,7 @@ void evaluate(INOUT(Lane) lane) {
     giveVec3(lane, toWorld(frame, v), 1e-5f);
     giveVec3(lane, toLocal(frame, v), 1e-5f);
     giveVec2(lane, sampleDisk(u), 1e-5f);
-    // The height is a square root: near the rim it magnifies the rounding of the disk.
+    // The height is a square root, which near the rim amplifies the rounding of the disk.
     const vec3 onHemisphere = sampleCosineHemisphere(u);
     give(lane, onHemisphere.z * onHemisphere.z, 2e-5f);
     give(lane, pdfCosineHemisphere(normal.z), 1e-6f);

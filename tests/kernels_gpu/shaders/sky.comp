@@ -2,7 +2,7 @@
 
 #include "kernels/light/sky.h"
 
-// Away from the seam behind, where u jumps from 1 to 0.
+// Avoids the seam, where u jumps from 1 to 0.
 vec3 takeAhead(INOUT(Lane) lane) {
     const vec3 v = takeVector(lane, -1.0f, 1.0f);
     return normalize(vec3(v.x, v.y, -abs(v.z) - 0.01f));
@@ -17,7 +17,7 @@ void giveTexels(INOUT(Lane) lane, SkyTexels t) {
     give(lane, t.alongY, 1e-4f);
 }
 
-// A point on a grid of eighths of a texel, so that rounding moves none across a texel's edge.
+// Points on a grid of eighths of a texel, so that rounding moves none across a texel's edge.
 void evaluate(INOUT(Lane) lane) {
     const vec3 direction = takeAhead(lane);
     const int width = 2 << takeIndex(lane, 6);

@@ -1,4 +1,4 @@
-// A point between probes, well away from where rounding would choose another cage or axis.
+// A point between probes, far enough from where rounding could choose another cage or axis.
 #ifndef PROBEGI_TESTS_KERNELS_GPU_SHADERS_SOME_CAGE_H
 #define PROBEGI_TESTS_KERNELS_GPU_SHADERS_SOME_CAGE_H
 

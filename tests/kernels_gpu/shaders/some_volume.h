@@ -1,4 +1,4 @@
-// Volumes of all kinds, turned and scrolled or not, for what includes this into its own namespace.
+// Volumes of all kinds, turned and scrolled or not. Included into the test's own namespace.
 #ifndef PROBEGI_TESTS_KERNELS_GPU_SHADERS_SOME_VOLUME_H
 #define PROBEGI_TESTS_KERNELS_GPU_SHADERS_SOME_VOLUME_H
 
@@ -30,7 +30,7 @@ KERNEL_FN Volume takeVolume(INOUT(Lane) lane) {
     return v;
 }
 
-// A cell of it.
+// A cell of the volume.
 KERNEL_FN ivec3 takeCell(INOUT(Lane) lane, Volume v) {
     const int x = takeIndex(lane, v.counts.x);
     const int y = takeIndex(lane, v.counts.y);

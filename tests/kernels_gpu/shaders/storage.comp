@@ -2,7 +2,7 @@
 
 #include "kernels/probe/storage.h"
 
-// Bits in, bits out: exact, but for the 16-bit integers.
+// Conversions between bits: all exact but the 16-bit integers.
 void evaluate(INOUT(Lane) lane) {
     const uint bits = takeBits(lane);
     const uint anyFinite = bits % 0x7f800000u;

@@ -7,7 +7,7 @@ void giveVec4(INOUT(Lane) lane, vec4 v, float tolerance) {
     give(lane, v.w, tolerance);
 }
 
-// Of at least a tenth: a direction magnifies the rounding of what it is made of by the inverse of its length.
+// A vector of at least a tenth, since normalising amplifies rounding by the inverse of the length.
 vec3 takeLong(INOUT(Lane) lane) {
     const vec3 v = takeVector(lane, -1.0f, 1.0f);
     return v + (v.x < 0.0f ? -0.1f : 0.1f) * vec3(1.0f);
@@ -43,7 +43,7 @@ void evaluate(INOUT(Lane) lane) {
     giveVec3(lane, bendTowards(normal, direction), 1e-3f);
     giveVec3(lane, placeNormal(linear, b), 1e-5f);
     giveVec3(lane, placeNormal(linear, vec3(0.0f)), 0.0f);
-    // Turned so that the volume's sign is sure.
+    // A determinant whose sign does not depend on rounding.
     const mat3 turned = mat3(vec3(0.0f, 1.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, scale + 0.1f));
     giveVec4(lane, placeTangent(turned, vec4(a, 1.0f)), 1e-6f);
     const vec3 tilted = unitOr(a, normal) + 0.5f * normal;
@@ -51,7 +51,7 @@ void evaluate(INOUT(Lane) lane) {
     giveVec3(lane, front.geometric, 1e-6f);
     giveVec3(lane, front.shading, 1e-6f);
     giveVec3(lane, frontNormals(vec3(0.0f), vec3(0.0f), direction).shading, 1e-6f);
-    // Away from grazing, where the side is a matter of rounding.
+    // Not grazing, where rounding decides the side.
     const vec3 toFront = normalize(a + 0.02f * b);
     giveBits(lane, uint(meetsBack(front, toFront)));
     giveBits(lane, uint(meetsBack(front, -toFront)));

@@ -79,7 +79,7 @@ void evaluate(INOUT(Lane) lane) {
     advanceFilter(state, sight);
     giveFilter(lane, state, 2e-5f);
     const PackedProbeFilter packed = packFilter(state, takeBits(lane));
-    // Halves may round to either side where the last bit of a light differs.
+    // Halves may be rounded to either side if the last bit of the light differs.
     giveFilter(lane, unpackFilter(packed), 8e-3f);
     giveFilter(lane, unpackFilter(forgottenFilter(state.window)), 1e-3f);
     give(lane, unpackLight(packLight(takeBetween(lane, 0.0f, 1000.0f), 0u)), 8e-3f);

@@ -2,8 +2,8 @@
 
 #include "kernels/trace/triangle_hit.h"
 
-// Rays through a known point of a triangle that is not degenerate and not seen from its edge, where both sides must
-// find the same; and rays anywhere, which must at least be answered without a hit that is none.
+// Rays through a known point of a triangle that is neither degenerate nor seen edge-on, for which both sides must find
+// the same; and arbitrary rays, for which there must be no invalid hit.
 void evaluate(INOUT(Lane) lane) {
     const vec3 corner0 = takeVector(lane, -0.3f, 0.3f);
     const vec3 corner1 = takeVector(lane, -0.3f, 0.3f) + vec3(2.0f, 0.0f, 0.0f);
@@ -27,6 +27,6 @@ void evaluate(INOUT(Lane) lane) {
     const vec2 b = shearedCorner(bvhRotate(corner1 - origin, ray.axis), ray);
     giveVec2(lane, a, 1e-5f);
     give(lane, edgeFunction(a, b), 1e-4f);
-    // Exactly opposite, whatever the compiler fuses.
+    // Exactly opposite, even if the compiler fuses operations.
     giveBits(lane, edgeFunction(a, b) == -edgeFunction(b, a) ? 1u : 0u);
 }

@@ -11,7 +11,7 @@ void evaluate(INOUT(Lane) lane) {
     VolumeChoice choice = chooseVolume(noVolume(), v, 3, point);
     giveBits(lane, uint(choice.volume));
     give(lane, choice.distance, 2e-4f);
-    // The same volume again is no nearer; one whose first probe is the point holds it.
+    // The same volume again is not nearer; a volume whose first probe is at the point contains it.
     choice = chooseVolume(choice, v, 4, point);
     giveBits(lane, uint(choice.volume));
     Volume here = v;

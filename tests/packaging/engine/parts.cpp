@@ -1,4 +1,4 @@
-// What was left out says so, and the rest works.
+// Parts that were left out report it, and the rest works.
 #include <probegi/probegi.h>
 
 #include <cstdio>

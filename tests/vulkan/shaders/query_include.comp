@@ -1,4 +1,4 @@
-// An engine's own shader with the installed include: irradiance at points, in a set and bindings of its own choice.
+// An engine's own shader with the installed include: irradiance at points, with a set and bindings of its choice.
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define PROBEGI_SET 1

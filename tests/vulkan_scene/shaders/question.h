@@ -1,4 +1,4 @@
-// What the shader test asks scene.glsl and what it hears, for C++ and GLSL alike. Members of 4 bytes, scalar layout.
+// Queries of the shader test to scene.glsl and their results, for C++ and GLSL. Members of 4 bytes, scalar layout.
 #ifndef PROBEGI_TESTS_VULKAN_SCENE_QUESTION_H
 #define PROBEGI_TESTS_VULKAN_SCENE_QUESTION_H
 

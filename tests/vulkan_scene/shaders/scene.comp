@@ -1,4 +1,4 @@
-// Asks scene.glsl and triangles.glsl about hits, directions and points, one a lane.
+// Queries scene.glsl and triangles.glsl about hits, directions and points, one per thread.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,4 +1,4 @@
-// The library's list with one guard more.
+// The library's list with another guard.
 #ifndef PROBEGI_KERNELS_LIST_H
 #define PROBEGI_KERNELS_LIST_H
 

@@ -1,4 +1,4 @@
-// A guard for the tests: a point may use the probes of even slots.
+// A guard for tests: points may use probes with even slots only.
 #if !defined(PROBEGI_KERNELS_TOY_H) || defined(KERNELS_IN_LANES)
 #define PROBEGI_KERNELS_TOY_H
 
@@ -14,7 +14,7 @@ LOOKUP_FN Real toySeen(IN(Access), IN(Volume), Int slot, Real3) {
     return evenSlot(slot);
 }
 
-// Of two neighbours along x one has an odd slot.
+// Of two neighbours along x, one has an odd slot.
 LOOKUP_FN Real toyBetween(IN(Access), IN(Volume), Int, OF_ACCESS(MapPoint), Real) {
     return Real(0.0f);
 }
