@@ -39,7 +39,7 @@ Result<void> cleanSky(HdrImage& image, const std::string& path) {
         pixel = glm::max(pixel, glm::vec3(0.0f));
         if (std::max({pixel.x, pixel.y, pixel.z}) > kBrightest)
             return fail(ErrorCode::malformed,
-                        fmt::format("--sky '{}' has a pixel of {:.3g} W/sr/m2; the limit is {:g}, repair the "
+                        fmt::format("--sky '{}' has a pixel of {:.3g} W/sr/m2; the limit is {:g}; repair the "
                                     "picture",
                                     path, std::max({pixel.x, pixel.y, pixel.z}), kBrightest));
     }

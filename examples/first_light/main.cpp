@@ -8,14 +8,15 @@ using namespace probegi;
 static int run() {
     // [readme]
     const Context context = Context::create().value();  // .value() throws on failure; .error().message says why
+    const auto backend = openBackend(context, {.kind = BackendKind::cpu}).value();  // or BackendKind::vulkan
     const Scene scene = makeBuiltinScene("cornell").value();
     const ScenePose pose = poseAt(scene);
     const Lighting lighting{pose.lights, scene.sky};
-    const auto tracer = makeEmbreeTracer(context, scene, pose).value();
+    const auto tracer = backend->openScene(scene, pose).value();
 
     FieldDesc desc;
     desc.volumes = {placeVolume(pose.bounds, {.targetProbes = 1000}).value()};
-    Field field = Field::create(context, desc).value();
+    Field field = backend->makeField(desc).value();
     for (int frame = 0; frame < 200; ++frame) {  // an engine does one update per frame
         field.update(*tracer, lighting).value();
     }

@@ -13,7 +13,7 @@
 /// command buffer uses must live until it has finished.
 ///
 /// A program without a device opens one (Device::open) and uses the CPU backend's API on the GPU: makeTracer(),
-/// makeMovableTracer(), makeField(), renderPicture(). These submit and wait.
+/// makeMovableTracer(), makeField(), renderPicture(), or all of them through makeBackend(). These submit and wait.
 ///
 /// Each half has a header of its own: probegi/vulkan/recording.h and standalone.h.
 namespace probegi::vulkan {}

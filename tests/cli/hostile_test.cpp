@@ -93,7 +93,7 @@ TEST_F(Hostile, NamesOfPeopleStayAsTheyAre) {
 TEST_F(Hostile, SkiesTooBrightToComputeWith) {
     const std::string sky = m_folder.file("sky.exr");
     ASSERT_TRUE(writeImage(sky, HdrImage(4, 4, glm::vec3(3e38f))));
-    expectRefused({"render", "builtin:cornell", "-o", m_folder.file("a.png"), "--sky", sky}, "is the brightest", 1);
+    expectRefused({"render", "builtin:cornell", "-o", m_folder.file("a.png"), "--sky", sky}, "the limit is 1e+20", 1);
     ASSERT_TRUE(writeImage(sky, HdrImage(4, 4, glm::vec3(1e20f))));
     for (const char* method : {"ddgi", "none"}) {
         const HdrImage image = picture("builtin:cornell", {"--sky", sky, "--method", method, "--probes", "4x4x4"});
