@@ -20,9 +20,9 @@ enum class BackendKind : std::uint8_t {
 };
 
 /// Draws pictures. Move-only by its pointer; one picture at a time.
-class PROBEGI_API Renderer {
+class PROBEGI_API PictureRenderer {
 public:
-    virtual ~Renderer() = default;
+    virtual ~PictureRenderer() = default;
     /// As renderPicture(). The tracer and the field (null: no indirect light) must be of the renderer's backend.
     virtual Result<RenderedPicture> render(const Tracer& tracer, const Lighting& lighting, const Field* field,
                                            const PictureDesc& desc) = 0;
@@ -44,7 +44,7 @@ public:
     /// Errors: as Field::create; unsupported (more probes than the device's images hold).
     virtual Result<Field> makeField(const FieldDesc& desc, const FieldSettings& settings = {}) const = 0;
     /// Errors: outOfMemory.
-    virtual Result<std::unique_ptr<Renderer>> makeRenderer() const = 0;
+    virtual Result<std::unique_ptr<PictureRenderer>> makeRenderer() const = 0;
 };
 
 /// Which backend, and what only some of them have.

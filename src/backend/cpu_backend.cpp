@@ -4,7 +4,7 @@ namespace probegi {
 
 namespace {
 
-class CpuRenderer final : public Renderer {
+class CpuRenderer final : public PictureRenderer {
 public:
     explicit CpuRenderer(const Context& context) : m_context(context) {}
 
@@ -32,7 +32,9 @@ public:
     Result<Field> makeField(const FieldDesc& desc, const FieldSettings& settings) const override {
         return Field::create(m_context, desc, settings);
     }
-    Result<std::unique_ptr<Renderer>> makeRenderer() const override { return std::make_unique<CpuRenderer>(m_context); }
+    Result<std::unique_ptr<PictureRenderer>> makeRenderer() const override {
+        return std::make_unique<CpuRenderer>(m_context);
+    }
 
 private:
     Context m_context;

@@ -5,7 +5,7 @@ namespace probegi::vulkan {
 
 namespace {
 
-class VulkanRenderer final : public Renderer {
+class VulkanRenderer final : public PictureRenderer {
 public:
     VulkanRenderer(const Context& context, const Device& device) : m_context(context), m_device(device) {}
 
@@ -37,7 +37,7 @@ public:
     Result<Field> makeField(const FieldDesc& desc, const FieldSettings& settings) const override {
         return vulkan::makeField(m_context, m_device, desc, settings);
     }
-    Result<std::unique_ptr<Renderer>> makeRenderer() const override {
+    Result<std::unique_ptr<PictureRenderer>> makeRenderer() const override {
         return std::make_unique<VulkanRenderer>(m_context, m_device);
     }
 

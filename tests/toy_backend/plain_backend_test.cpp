@@ -8,7 +8,7 @@
 namespace probegi::test {
 namespace {
 
-class PlainRenderer final : public Renderer {
+class PlainRenderer final : public PictureRenderer {
 public:
     explicit PlainRenderer(const Context& context) : m_context(context) {}
     Result<RenderedPicture> render(const Tracer& tracer, const Lighting& lighting, const Field* field,
@@ -38,7 +38,7 @@ public:
         if (desc.rules != FieldRules::paper) return fail(ErrorCode::unsupported, "only the paper's rules");
         return makeFieldOn(m_context, desc, settings, std::make_unique<PlainField>(m_context, desc));
     }
-    Result<std::unique_ptr<Renderer>> makeRenderer() const override {
+    Result<std::unique_ptr<PictureRenderer>> makeRenderer() const override {
         return std::make_unique<PlainRenderer>(m_context);
     }
 

@@ -36,8 +36,8 @@ PictureDesc pictureDesc(const RenderedView& view, const ReportSettings& settings
 /// What all pieces of the work share.
 struct Studio {
     const Backend& backend;
-    const Tracer& tracer;  ///< the backend's
-    Renderer& renderer;    ///< the backend's
+    const Tracer& tracer;       ///< the backend's
+    PictureRenderer& renderer;  ///< the backend's
     const LoadedSetup& setup;
     const ReportSettings& settings;
 
