@@ -101,17 +101,14 @@ Result<void> gatherDirectLight(const Tracer& tracer, const Lighting& lighting, f
         for (std::uint32_t i = 0; i < b.lit.size(); ++i) {
             const Surface& s = b.surfaces[b.lit[i]];
             const kernels::LightSample sample = sampleLight(light, s.position);
-            const float cosine = glm::dot(sample.toLight, s.shadingNormal);
-            if (!(cosine > 0) || !(glm::dot(sample.toLight, s.geometricNormal) > 0)) continue;
-            const glm::vec3 e = sample.irradianceAtNormal * cosine;
-            if (e == glm::vec3(0)) continue;
+            if (!kernels::reachesSurface(sample, s.geometricNormal, s.shadingNormal)) continue;
             const Ray shadow = shadowRay(s.position, s.geometricNormal, sample, magnitude);
             Ray& ray = b.shadowRays[count];
             ray.origin = shadow.origin;
             ray.direction = shadow.direction;
             ray.far = shadow.far;
             b.shadowed[count] = i;
-            b.unshadowed[count++] = e;
+            b.unshadowed[count++] = sample.irradianceAtNormal * glm::dot(sample.toLight, s.shadingNormal);
         }
         const std::span<std::uint8_t> blocked(b.blocked.data(), count);
         if (auto traced = tracer.occluded({b.shadowRays.data(), count}, blocked); !traced) return traced;
