@@ -42,14 +42,6 @@ TEST(ProbeCage, theCageIsAroundThePoint) {
     EXPECT_EQ(cageAlpha({-0.5f, -3, 0}, vec3(0.0f)), vec3(0.0f));
 }
 
-TEST(ProbeCage, numbersCountXFirst) {
-    int number = 0;
-    for (int z = 0; z < 6; ++z)
-        for (int y = 0; y < 5; ++y)
-            for (int x = 0; x < 4; ++x) EXPECT_EQ(probeNumber({x, y, z}, kCounts), number++);
-    EXPECT_EQ(probePlace({3, 4, 5}, kVolume.origin, kVolume.spacing), vec3(2.5f, 6, 13));
-}
-
 // Face by face: 4 below and 4 above along each axis.
 TEST(ProbeCage, neighboursAreFourASide) {
     for (int axis = 0; axis < 3; ++axis)

@@ -37,7 +37,4 @@ void evaluate(INOUT(Lane) lane) {
     giveBits(lane, uint(neighbour.x + 64));
     giveBits(lane, uint(neighbour.y + 64));
     giveBits(lane, uint(neighbour.z + 64));
-    giveBits(lane, isInGrid(neighbour, counts) ? 1u : 0u);
-    giveBits(lane, uint(probeNumber(ivec3(base), counts)));
-    giveVec3(lane, probePlace(neighbour, origin, spacing), 2e-6f);
 }
