@@ -1,7 +1,6 @@
 #include "field/probe_emitters.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <vector>
 
@@ -14,15 +13,9 @@ namespace probegi {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Approximate emitter samples per task: enough to fill the tracer's packets, few enough to spread small fields over
 // threads.
 constexpr std::size_t kLooksPerTask = 256;
-
-std::int64_t nanoseconds(Clock::duration d) {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(d).count();
-}
 
 // Buffers of a task, reused by a thread's tasks.
 struct TaskBuffers {
@@ -84,7 +77,7 @@ Result<void> lookAtEmitters(const Context& context, const FieldDesc& desc, std::
     const std::vector<kernels::Volume> volumes = makeVolumes(desc);
     const auto look = [&](std::size_t begin, std::size_t end) -> Result<void> {
         thread_local TaskBuffers b;
-        const auto start = Clock::now();
+        const auto start = TraceTimes::Clock::now();
         b.rays.clear();
         b.aims.clear();
         b.materials.clear();
@@ -96,11 +89,10 @@ Result<void> lookAtEmitters(const Context& context, const FieldDesc& desc, std::
         b.hits.resize(b.rays.size());
         b.surfaces.resize(b.rays.size());
         if (auto hit = tracer.closestHits(b.rays, b.hits); !hit) return hit;
-        const auto traced = Clock::now();
+        const auto traced = TraceTimes::Clock::now();
         if (auto seen = tracer.surfaces(b.rays, b.hits, b.surfaces); !seen) return seen;
         for (std::size_t i = 0; i < b.rays.size(); ++i) out[begin * looks + i] = lightOf(search, i, b);
-        times.traceNs += nanoseconds(traced - start);
-        times.shadeNs += nanoseconds(Clock::now() - traced);
+        times.add(start, traced);
         return {};
     };
     return tryParallelFor(context, tasks.size(), kLooksPerTask / looks, look);

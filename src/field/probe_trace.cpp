@@ -1,7 +1,6 @@
 #include "field/probe_trace.h"
 
 #include <algorithm>
-#include <chrono>
 #include <glm/geometric.hpp>
 #include <vector>
 
@@ -19,14 +18,8 @@ namespace probegi {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Approximate rays per batch: enough to amortise calls, few enough for the L2 cache.
 constexpr std::size_t kRaysPerBatch = 1152;
-
-std::int64_t nanoseconds(Clock::duration d) {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(d).count();
-}
 
 // Light along a ray.
 struct RayLight {
@@ -101,17 +94,14 @@ Result<void> gatherDirectLight(const Tracer& tracer, const Lighting& lighting, f
         for (std::uint32_t i = 0; i < b.lit.size(); ++i) {
             const Surface& s = b.surfaces[b.lit[i]];
             const kernels::LightSample sample = sampleLight(light, s.position);
-            const float cosine = glm::dot(sample.toLight, s.shadingNormal);
-            if (!(cosine > 0) || !(glm::dot(sample.toLight, s.geometricNormal) > 0)) continue;
-            const glm::vec3 e = sample.irradianceAtNormal * cosine;
-            if (e == glm::vec3(0)) continue;
+            if (!kernels::reachesSurface(sample, s.geometricNormal, s.shadingNormal)) continue;
             const Ray shadow = shadowRay(s.position, s.geometricNormal, sample, magnitude);
             Ray& ray = b.shadowRays[count];
             ray.origin = shadow.origin;
             ray.direction = shadow.direction;
             ray.far = shadow.far;
             b.shadowed[count] = i;
-            b.unshadowed[count++] = e;
+            b.unshadowed[count++] = sample.irradianceAtNormal * glm::dot(sample.toLight, s.shadingNormal);
         }
         const std::span<std::uint8_t> blocked(b.blocked.data(), count);
         if (auto traced = tracer.occluded({b.shadowRays.data(), count}, blocked); !traced) return traced;
@@ -214,15 +204,14 @@ Result<void> traceProbes(const Context& context, const FieldDesc& desc, std::spa
     const TaskBlocks blocks(desc, tasks);
     const std::vector<OrderedDirection> update = alongCurve(directions.update), fixed = alongCurve(directions.fixed);
     const auto traceBatch = [&](const Batch& batch, BatchBuffers& b) -> Result<void> {
-        const auto start = Clock::now();
+        const auto start = TraceTimes::Clock::now();
         const std::size_t count = makeRays(batch, b);
         if (auto hit = tracer.closestHits({b.rays.data(), count}, {b.hits.data(), count}); !hit) return hit;
-        const auto traced = Clock::now();
+        const auto traced = TraceTimes::Clock::now();
         if (auto shaded = shadeBatch(tracer, lighting, magnitude, bounces, emitters, batch, count, b); !shaded)
             return shaded;
         writeData(directions, batch, b, out);
-        times.traceNs += nanoseconds(traced - start);
-        times.shadeNs += nanoseconds(Clock::now() - traced);
+        times.add(start, traced);
         return {};
     };
     const std::vector<Batch> batches = makeBatches(update, fixed);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <span>
 
@@ -10,8 +11,19 @@ namespace probegi {
 
 /// Nanoseconds, summed over threads.
 struct TraceTimes {
+    using Clock = std::chrono::steady_clock;
+
     std::atomic<std::int64_t> traceNs{0};
     std::atomic<std::int64_t> shadeNs{0};
+
+    /// Of a batch whose rays were traced by `traced` and whose hits are shaded now.
+    void add(Clock::time_point start, Clock::time_point traced) noexcept {
+        const auto nanoseconds = [](Clock::duration d) {
+            return std::chrono::duration_cast<std::chrono::nanoseconds>(d).count();
+        };
+        traceNs += nanoseconds(traced - start);
+        shadeNs += nanoseconds(Clock::now() - traced);
+    }
 };
 
 /// The field of the last update at points: E in W m^-2. Called from several threads at once.

@@ -100,9 +100,9 @@ Result<void> addPunctual(const Transport& transport, std::size_t begin, std::siz
         if (!views.hits[i].valid() || surface.backface) continue;
         for (const PlacedLight& light : transport.lights) {
             const kernels::LightSample s = sampleLight(light, surface.position);
-            const float cosine = glm::dot(surface.shadingNormal, s.toLight);
-            if (!(cosine > 0) || !(glm::dot(surface.geometricNormal, s.toLight) > 0)) continue;
-            const float radiance = reflected(surface, s.irradianceAtNormal * cosine);
+            if (!kernels::reachesSurface(s, surface.geometricNormal, surface.shadingNormal)) continue;
+            const float radiance =
+                reflected(surface, s.irradianceAtNormal * glm::dot(surface.shadingNormal, s.toLight));
             if (!(radiance > 0)) continue;
             shadows.push_back(shadowRay(surface.position, surface.geometricNormal, s, transport.magnitude));
             arriving.emplace_back(i, radiance);

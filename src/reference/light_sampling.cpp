@@ -8,13 +8,7 @@
 
 namespace probegi {
 
-namespace {
-
-bool anyPositive(glm::vec3 v) {
-    return v.x > 0 || v.y > 0 || v.z > 0;
-}
-
-}  // namespace
+using kernels::anyPositive;
 
 void PathBatch::sampleLights(Path& path, const Vertex& vertex) {
     if (!(m_fromPoints && path.reflections == 0)) samplePunctualLights(path, vertex);
@@ -32,8 +26,7 @@ void PathBatch::samplePunctualLights(Path& path, const Vertex& vertex) {
     // Choose one of many by its unshadowed contribution: two passes instead of a list.
     const auto contribution = [&](const PlacedLight& light) {
         const kernels::LightSample s = sampleLight(light, vertex.position);
-        const float cosine = glm::dot(vertex.frame[2], s.toLight);
-        if (cosine <= 0 || glm::dot(vertex.geometricNormal, s.toLight) <= 0) return 0.0f;
+        if (!kernels::reachesSurface(s, vertex.geometricNormal, vertex.frame[2])) return 0.0f;
         const glm::vec3 local = kernels::toLocal(vertex.frame, s.toLight);
         return kernels::luminance(s.irradianceAtNormal * kernels::evalBsdf(vertex.bsdf, vertex.toPrevious, local));
     };
@@ -51,7 +44,7 @@ void PathBatch::samplePunctualLights(Path& path, const Vertex& vertex) {
 }
 
 void PathBatch::queuePunctual(const Path& path, const Vertex& vertex, const kernels::LightSample& light, float weight) {
-    if (!anyPositive(light.irradianceAtNormal) || glm::dot(vertex.geometricNormal, light.toLight) <= 0) return;
+    if (!kernels::reachesSurface(light, vertex.geometricNormal, vertex.frame[2])) return;
     const Response r = response(path, vertex, kernels::toLocal(vertex.frame, light.toLight));
     const bool first = path.reflections == 0;
     Pending pending{.result = path.result, .layer = first ? Layer::direct : Layer::indirect};

@@ -16,8 +16,7 @@ glm::vec3 reflect(const Surface& surface, glm::vec3 toViewer, glm::vec3 toLight,
     return kernels::evalBsdf(bsdf, kernels::toLocal(frame, toViewer), kernels::toLocal(frame, toLight));
 }
 
-// Surfaces that the light reaches if unoccluded. A light behind either normal does not: the geometric one prevents
-// leaks through a surface whose shading normal is bent past its edge.
+// Surfaces that the light reaches if unoccluded.
 void collectCandidates(const PlacedLight& light, float sceneMagnitude, TileSamples& samples) {
     samples.candidates.clear();
     samples.shadowRays.clear();
@@ -25,11 +24,8 @@ void collectCandidates(const PlacedLight& light, float sceneMagnitude, TileSampl
         const Surface& surface = samples.surfaces[samples.seen[entry]];
         if (surface.backface) continue;
         const kernels::LightSample sample = sampleLight(light, surface.position);
-        const glm::vec3 e = sample.irradianceAtNormal;
-        if (!(e.x > 0 || e.y > 0 || e.z > 0)) continue;
-        if (glm::dot(sample.toLight, surface.shadingNormal) <= 0) continue;
-        if (glm::dot(sample.toLight, surface.geometricNormal) <= 0) continue;
-        samples.candidates.push_back({std::uint32_t(entry), e});
+        if (!kernels::reachesSurface(sample, surface.geometricNormal, surface.shadingNormal)) continue;
+        samples.candidates.push_back({std::uint32_t(entry), sample.irradianceAtNormal});
         samples.shadowRays.push_back(shadowRay(surface.position, surface.geometricNormal, sample, sceneMagnitude));
     }
     samples.blocked.resize(samples.shadowRays.size());

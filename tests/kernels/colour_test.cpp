@@ -16,6 +16,17 @@ TEST(Luminance, isThatOfRec709) {
     EXPECT_NEAR(luminance({1, 2, 3}), 0.2126f + 2 * 0.7152f + 3 * 0.0722f, 1e-6f);
 }
 
+TEST(AnyPositive, oneChannelIsEnoughAndNanIsNot) {
+    EXPECT_FALSE(anyPositive(vec3(0.0f)));
+    EXPECT_FALSE(anyPositive({-1, -2, 0}));
+    EXPECT_FALSE(anyPositive(vec3(std::nanf(""))));
+    for (int channel = 0; channel < 3; ++channel) {
+        vec3 color(-1.0f);
+        color[channel] = 1e-30f;
+        EXPECT_TRUE(anyPositive(color)) << channel;
+    }
+}
+
 // IEC 61966-2-1: known pairs on both pieces, and where they meet.
 TEST(Srgb, knownValuesBothWays) {
     const float pairs[][2] = {{0, 0},

@@ -9,7 +9,7 @@ namespace {
 
 const ivec3 kCounts(4, 5, 6);
 
-// The last probe is at (2.5, 6, 13).
+// As far as (2.5, 6, 13).
 Volume someVolume() {
     Volume v{};
     v.origin = vec3(1, 2, 3);
@@ -34,7 +34,7 @@ TEST(ProbeCage, theCageIsAroundThePoint) {
     const vec3 inside(1.5f, 2.25f, 0.5f);
     EXPECT_EQ(cageBase(kVolume, inside), vec3(1, 2, 0));
     EXPECT_EQ(cageAlpha(inside, vec3(1, 2, 0)), vec3(0.5f, 0.25f, 0.5f));
-    // On and beyond the last probes: the end of the last cage.
+    // On and beyond the last probes: the last cage, at its end.
     EXPECT_EQ(cageBase(kVolume, {3, 4, 5}), vec3(2, 3, 4));
     EXPECT_EQ(cageAlpha({3, 4, 5}, {2, 3, 4}), vec3(1.0f));
     EXPECT_EQ(cageAlpha({3.5f, 4, 5}, {2, 3, 4}), vec3(1.0f));
@@ -42,15 +42,7 @@ TEST(ProbeCage, theCageIsAroundThePoint) {
     EXPECT_EQ(cageAlpha({-0.5f, -3, 0}, vec3(0.0f)), vec3(0.0f));
 }
 
-TEST(ProbeCage, numbersCountXFirst) {
-    int number = 0;
-    for (int z = 0; z < 6; ++z)
-        for (int y = 0; y < 5; ++y)
-            for (int x = 0; x < 4; ++x) EXPECT_EQ(probeNumber({x, y, z}, kCounts), number++);
-    EXPECT_EQ(probePlace({3, 4, 5}, kVolume.origin, kVolume.spacing), vec3(2.5f, 6, 13));
-}
-
-// By faces: 4 below and 4 above along each axis.
+// Face by face: 4 below and 4 above along each axis.
 TEST(ProbeCage, neighboursAreFourASide) {
     for (int axis = 0; axis < 3; ++axis)
         for (const int along : {-1, 2}) {
@@ -60,7 +52,7 @@ TEST(ProbeCage, neighboursAreFourASide) {
         }
 }
 
-// A weight below half a thousandth raises doubt; with full doubt, a point far from all probes still gets light.
+// Less than half a thousandth of weight is doubt; in full doubt a point far from all probes has light nevertheless.
 TEST(ProbeNeighboursDoubt, beginsBelowHalfAThousandth) {
     const vec3 cage = vec3(2.0f), neighbours = kPi * vec3(9.0f);
     EXPECT_NEAR(completedByNeighbours(cage * 0.0005f, 0.0005f, neighbours).x, 4 * kPi, 1e-3f);
@@ -79,7 +71,7 @@ TEST(ProbeQuery, noViewerIsTheNormal) {
     EXPECT_EQ(viewerOf({0.6f, -0.6f, 0.1f}, vec3(0, 0, 1)), vec3(0.6f, -0.6f, 0.1f));
 }
 
-// At a probe, rounding of the position must not choose a side; half a spacing away the cosine is right to 1 %.
+// On a probe the rounding of a place has no side; half a spacing away the cosine is right within a per cent.
 TEST(ProbeQuery, aProbeHasNoSideWhereThePointStands) {
     EXPECT_EQ(cosineToProbe(0, 0, 2), 0.0f);
     EXPECT_LT(cosineToProbe(1e-6f, 1e-6f, 2), 1e-3f);
@@ -87,7 +79,7 @@ TEST(ProbeQuery, aProbeHasNoSideWhereThePointStands) {
     EXPECT_NEAR(cosineToProbe(-1, 1, 2), -1 / 1.002, 1e-6);
 }
 
-// The shares of hits on backs at which a probe begins to fade, and at which it is not used.
+// The share of hits on backs at which a probe fades, and where nothing of it is left.
 TEST(ProbeQuery, aProbeInAWallFadesBetweenAQuarterAndThirtyPerCent) {
     EXPECT_EQ(outsideWeight(0.25f, kRulesMeasured), 1.0f);
     EXPECT_NEAR(outsideWeight(0.26f, kRulesMeasured), 0.8f, 1e-5f);
@@ -105,7 +97,7 @@ TEST(ProbeQuery, smallWeightsAreCrushed) {
     EXPECT_EQ(crushWeight(0), 0.0f);
 }
 
-// A thousandth of the weight remains on the far side of a cell's face.
+// A thousandth of the weight is left for the far side of a cell's face.
 TEST(ProbeQuery, noCornerOfTheCageIsForgotten) {
     EXPECT_EQ(trilinearFactor(0, 1), 0.001f);
     EXPECT_EQ(trilinearFactor(1, 0), 0.001f);

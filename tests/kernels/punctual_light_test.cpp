@@ -75,5 +75,30 @@ TEST(PunctualLight, spotsShineAlongTheirAxis) {
     EXPECT_FLOAT_EQ(spot(kLightPoint, {0, 2, 0}), 1.25f);
 }
 
+TEST(PunctualLight, surfacesGetLightFromInFrontOfBothNormalsOnly) {
+    const auto reaches = [](vec3 toLight, vec3 irradiance) {
+        return reachesSurface({toLight, 1, irradiance}, {0, 0, 1}, {0.8f, 0, 0.6f});
+    };
+    const vec3 white(1.0f);
+    EXPECT_TRUE(reaches({0, 0, 1}, white));
+    EXPECT_TRUE(reaches({1, 0, 1e-6f}, white));
+    EXPECT_FALSE(reaches({1, 0, 0}, white)) << "along the surface";
+    EXPECT_FALSE(reaches({1, 0, -0.1f}, white)) << "behind it, and in front of the shading normal";
+    EXPECT_FALSE(reaches({-1, 0, 0.1f}, white)) << "behind the shading normal";
+    EXPECT_FALSE(reaches({0, 1, 0}, white)) << "along both";
+    EXPECT_FALSE(reaches({0, 0, 1}, vec3(0.0f)));
+    EXPECT_FALSE(reaches({0, 0, 1}, vec3(-1.0f)));
+    for (int channel = 0; channel < 3; ++channel) {
+        vec3 one(0.0f);
+        one[channel] = 1e-30f;
+        EXPECT_TRUE(reaches({0, 0, 1}, one));
+    }
+    const float nan = std::nanf("");
+    EXPECT_FALSE(reaches({0, 0, 1}, vec3(nan)));
+    EXPECT_FALSE(reaches(vec3(nan), white));
+    EXPECT_FALSE(reachesSurface({{0, 0, 1}, 1, white}, vec3(nan), {0, 0, 1}));
+    EXPECT_FALSE(reachesSurface({{0, 0, 1}, 1, white}, {0, 0, 1}, vec3(nan)));
+}
+
 }  // namespace
 }  // namespace probegi::kernels

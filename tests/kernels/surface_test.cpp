@@ -67,6 +67,10 @@ TEST(Surface, bentNormalsFaceTheOriginByALittle) {
     expectNear(bendTowards(-kZ, kZ), kZ);
 }
 
+TEST(Surface, placedPointsAreMovedAsWell) {
+    EXPECT_EQ(placePoint(mat4x3(2.0f * kY, 3.0f * kX, kZ, vec3(10, 20, 30)), {1, 2, 4}), vec3(16, 22, 34));
+}
+
 TEST(Surface, placedNormalsKeepTheirDirectionOnly) {
     const mat3 stretch(2.0f * kX, kY, kZ);
     expectNear(placeNormal(stretch, {0, 0, 5}), kZ);

@@ -2,7 +2,7 @@
 #ifndef PROBEGI_KERNELS_PUNCTUAL_LIGHT_H
 #define PROBEGI_KERNELS_PUNCTUAL_LIGHT_H
 
-#include "kernels/language.h"
+#include "kernels/screen/colour.h"
 
 KERNELS_BEGIN
 
@@ -62,6 +62,14 @@ KERNEL_FN LightSample samplePunctual(int type, vec3 lightPos, vec3 lightDir, vec
     if (type == kLightSpot) factor *= punctualConeFactor(0.0f - dot(result.toLight, lightDir), cosInner, cosOuter);
     result.irradianceAtNormal = intensity * factor;
     return result;
+}
+
+// Whether a surface point gets the light if nothing is between them. A light behind either normal does not count: the
+// geometric one keeps light from seeping through a surface whose shading normal leans over its edge. Nor does one that
+// is not a number.
+KERNEL_FN bool reachesSurface(LightSample light, vec3 geometricNormal, vec3 shadingNormal) {
+    return anyPositive(light.irradianceAtNormal) && dot(light.toLight, shadingNormal) > 0.0f &&
+           dot(light.toLight, geometricNormal) > 0.0f;
 }
 
 KERNELS_END

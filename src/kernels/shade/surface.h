@@ -53,6 +53,11 @@ KERNEL_FN vec3 bendTowards(vec3 normal, vec3 toOrigin) {
     return unitOr(normal + (kLeastCosine - cosine) * toOrigin, toOrigin);
 }
 
+// A mesh-space point under an instance's transform. The order of the sum is spelt out: languages differ in theirs.
+KERNEL_FN vec3 placePoint(mat4x3 toWorld, vec3 point) {
+    return (toWorld[0] * point.x + toWorld[1] * point.y) + (toWorld[2] * point.z + toWorld[3]);
+}
+
 // A mesh-space normal of any length under an instance's normal matrix; only its direction counts.
 KERNEL_FN vec3 placeNormal(mat3 normalToWorld, vec3 normal) {
     return normalToWorld * unitOr(normal, vec3(0.0f));

@@ -81,18 +81,6 @@ KERNEL_FN ivec3 neighbourCell(ivec3 base, int i) {
     return base + ivec3(u, v, along);
 }
 
-KERNEL_FN bool isInGrid(ivec3 cell, ivec3 counts) {
-    return cell.x >= 0 && cell.y >= 0 && cell.z >= 0 && cell.x < counts.x && cell.y < counts.y && cell.z < counts.z;
-}
-
-KERNEL_FN int probeNumber(ivec3 at, ivec3 counts) {
-    return at.x + counts.x * (at.y + counts.y * at.z);
-}
-
-KERNEL_FN vec3 probePlace(ivec3 at, vec3 origin, vec3 spacing) {
-    return origin + vec3(at) * spacing;
-}
-
 KERNELS_END
 
 #endif

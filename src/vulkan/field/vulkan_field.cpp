@@ -13,8 +13,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-static_assert(sizeof(RayDatum) == 16 && sizeof(FieldQuery) == 36 && sizeof(kernels::EmitterLight) == 24,
-              "shaders/ray_data.glsl, query.comp, emitter_lights.glsl");
+static_assert(sizeof(kernels::EmitterLight) == 24, "shaders/emitter_lights.glsl");
 
 constexpr std::size_t kQueriesPerPiece = std::size_t(1) << 20;
 constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();

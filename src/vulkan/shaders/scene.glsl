@@ -73,34 +73,28 @@ vec3 sceneLinear(uint texel) {
     return vec3(table.at[texelCode(texel, 0)], table.at[texelCode(texel, 1)], table.at[texelCode(texel, 2)]);
 }
 
-// RGB decoded from sRGB.
-vec3 textureColorOn(GpuTexture image, vec2 uv, int level) {
+// RGB decoded from sRGB, or as it is stored, divided by 255.
+vec3 textureOn(GpuTexture image, vec2 uv, int level, bool srgb) {
     const SceneFootprint f = sceneFootprint(image, uv, level);
-    return blendTexels(f.weights, sceneLinear(f.texel[0]), sceneLinear(f.texel[1]), sceneLinear(f.texel[2]),
-                       sceneLinear(f.texel[3]));
-}
-
-// RGB as it is stored, divided by 255.
-vec3 textureDataOn(GpuTexture image, vec2 uv, int level) {
-    const SceneFootprint f = sceneFootprint(image, uv, level);
-    return blendTexels(f.weights, texelCodes(f.texel[0]), texelCodes(f.texel[1]), texelCodes(f.texel[2]),
-                       texelCodes(f.texel[3])) *
-           (1.0 / 255.0);
+    vec3 texel[4];
+    for (int k = 0; k < 4; ++k) texel[k] = srgb ? sceneLinear(f.texel[k]) : texelCodes(f.texel[k]);
+    return blendTexels(f.weights, texel[0], texel[1], texel[2], texel[3]) * (srgb ? 1.0 : 1.0 / 255.0);
 }
 
 // Between two mip levels, 0 <= level <= levels - 1.
-vec3 textureColor(GpuTexture image, vec2 uv, float level) {
+vec3 textureBetween(GpuTexture image, vec2 uv, float level, bool srgb) {
     const int finer = int(level);
-    const vec3 texel = textureColorOn(image, uv, finer);
+    const vec3 texel = textureOn(image, uv, finer, srgb);
     if (level == float(finer)) return texel;
-    return mix(texel, textureColorOn(image, uv, finer + 1), level - float(finer));
+    return mix(texel, textureOn(image, uv, finer + 1, srgb), level - float(finer));
+}
+
+vec3 textureColor(GpuTexture image, vec2 uv, float level) {
+    return textureBetween(image, uv, level, true);
 }
 
 vec3 textureData(GpuTexture image, vec2 uv, float level) {
-    const int finer = int(level);
-    const vec3 texel = textureDataOn(image, uv, finer);
-    if (level == float(finer)) return texel;
-    return mix(texel, textureDataOn(image, uv, finer + 1), level - float(finer));
+    return textureBetween(image, uv, level, false);
 }
 
 // Alpha divided by 255.

@@ -32,15 +32,6 @@ Surface surfaceOf(const kernels::GpuSurface& s) {
     return surface;
 }
 
-// Calls piece(first, count) over 0..count.
-template <class Piece>
-Result<void> inPieces(std::size_t count, const Piece& piece) {
-    return guarded("tracing rays", [&] {
-        for (std::size_t first = 0; first < count; first += kRaysPerPiece)
-            piece(first, std::min(kRaysPerPiece, count - first));
-    });
-}
-
 }  // namespace
 
 GpuTracer::GpuTracer(const Device& device, GpuScene scene)
@@ -53,47 +44,47 @@ const EmitterSet* GpuTracer::emitters() const {
     return &m_scene.impl().emitters;
 }
 
-Result<void> GpuTracer::closestHits(std::span<const Ray> rays, std::span<Hit> hits) const {
-    assert(rays.size() == hits.size());
+template <class Answer, class Take>
+Result<void> GpuTracer::ask(const char* shader, std::span<const Ray> rays, std::span<const Hit> hits, float spread,
+                            const Take& take) const {
     const std::lock_guard lock(m_mutex);
-    return inPieces(rays.size(), [&](std::size_t first, std::size_t count) {
-        m_exchange.begin(count * sizeof(Ray), count * sizeof(Hit));
-        kernels::RaysPush push{.rays = packAddress(m_exchange.add(rays.subspan(first, count))),
-                               .hits = packAddress(m_exchange.out()),
-                               .results = {},
-                               .count = std::uint32_t(count),
-                               .spread = 0};
+    const auto askPiece = [&](std::size_t first, std::size_t count) {
+        m_exchange.begin(count * (sizeof(Ray) + (hits.empty() ? 0 : sizeof(Hit))), count * sizeof(Answer));
+        kernels::RaysPush push{};
+        push.rays = packAddress(m_exchange.add(rays.subspan(first, count)));
+        push.results = packAddress(m_exchange.out());
+        push.hits = hits.empty() ? push.results : packAddress(m_exchange.add(hits.subspan(first, count)));
+        push.count = std::uint32_t(count);
+        push.spread = spread;
         m_exchange.run(
             [&](const Recorder& recorder) {
                 recorder.bindScene(m_scene.impl().set());
                 recorder.push(push);
-                recorder.dispatchOver(m_scene.impl().shader("trace_rays"), count);
+                recorder.dispatchOver(m_scene.impl().shader(shader), count);
             },
-            count * sizeof(Hit));
-        std::copy_n(m_exchange.results<Hit>().begin(), count, hits.begin() + std::ptrdiff_t(first));
+            count * sizeof(Answer));
+        take(first, m_exchange.results<Answer>().first(count));
+    };
+    return guarded("tracing rays", [&] {
+        for (std::size_t first = 0; first < rays.size(); first += kRaysPerPiece)
+            askPiece(first, std::min(kRaysPerPiece, rays.size() - first));
+    });
+}
+
+Result<void> GpuTracer::closestHits(std::span<const Ray> rays, std::span<Hit> hits) const {
+    assert(rays.size() == hits.size());
+    return ask<Hit>("trace_rays", rays, {}, 0.0f, [&](std::size_t first, std::span<const Hit> found) {
+        std::copy(found.begin(), found.end(), hits.begin() + std::ptrdiff_t(first));
     });
 }
 
 Result<void> GpuTracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
     assert(rays.size() == blocked.size());
-    const std::lock_guard lock(m_mutex);
-    return inPieces(rays.size(), [&](std::size_t first, std::size_t count) {
-        m_exchange.begin(count * sizeof(Ray), count * sizeof(std::uint32_t));
-        kernels::RaysPush push{.rays = packAddress(m_exchange.add(rays.subspan(first, count))),
-                               .hits = {},
-                               .results = packAddress(m_exchange.out()),
-                               .count = std::uint32_t(count),
-                               .spread = 0};
-        m_exchange.run(
-            [&](const Recorder& recorder) {
-                recorder.bindScene(m_scene.impl().set());
-                recorder.push(push);
-                recorder.dispatchOver(m_scene.impl().shader("trace_occlusion"), count);
-            },
-            count * sizeof(std::uint32_t));
-        const auto results = m_exchange.results<std::uint32_t>();
-        for (std::size_t i = 0; i < count; ++i) blocked[first + i] = std::uint8_t(results[i]);
-    });
+    return ask<std::uint32_t>("trace_occlusion", rays, {}, 0.0f,
+                              [&](std::size_t first, std::span<const std::uint32_t> results) {
+                                  for (std::size_t i = 0; i < results.size(); ++i)
+                                      blocked[first + i] = std::uint8_t(results[i]);
+                              });
 }
 
 Result<void> GpuTracer::surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const {
@@ -103,25 +94,11 @@ Result<void> GpuTracer::surfaces(std::span<const Ray> rays, std::span<const Hit>
 Result<void> GpuTracer::filteredSurfaces(std::span<const Ray> rays, std::span<const Hit> hits, float spread,
                                          std::span<Surface> out) const {
     assert(rays.size() == hits.size() && rays.size() == out.size());
-    const std::lock_guard lock(m_mutex);
-    return inPieces(rays.size(), [&](std::size_t first, std::size_t count) {
-        m_exchange.begin(count * (sizeof(Ray) + sizeof(Hit)), count * sizeof(kernels::GpuSurface));
-        kernels::RaysPush push{.rays = packAddress(m_exchange.add(rays.subspan(first, count))),
-                               .hits = packAddress(m_exchange.add(hits.subspan(first, count))),
-                               .results = packAddress(m_exchange.out()),
-                               .count = std::uint32_t(count),
-                               .spread = spread};
-        m_exchange.run(
-            [&](const Recorder& recorder) {
-                recorder.bindScene(m_scene.impl().set());
-                recorder.push(push);
-                recorder.dispatchOver(m_scene.impl().shader("surfaces"), count);
-            },
-            count * sizeof(kernels::GpuSurface));
-        const auto results = m_exchange.results<kernels::GpuSurface>();
-        for (std::size_t i = 0; i < count; ++i)
-            if (hits[first + i].valid()) out[first + i] = surfaceOf(results[i]);
-    });
+    return ask<kernels::GpuSurface>("surfaces", rays, hits, spread,
+                                    [&](std::size_t first, std::span<const kernels::GpuSurface> results) {
+                                        for (std::size_t i = 0; i < results.size(); ++i)
+                                            if (hits[first + i].valid()) out[first + i] = surfaceOf(results[i]);
+                                    });
 }
 
 Result<void> GpuTracer::setPose(const ScenePose& pose) {

@@ -26,6 +26,12 @@ public:
     const GpuScene& scene() const noexcept { return m_scene; }
 
 private:
+    /// Runs a shader over the rays, and over their hits unless it finds those; take(first, answers) is told what it
+    /// wrote of the rays from number `first` on, piece by piece.
+    template <class Answer, class Take>
+    Result<void> ask(const char* shader, std::span<const Ray> rays, std::span<const Hit> hits, float spread,
+                     const Take& take) const;
+
     Device m_device;
     GpuScene m_scene;
     mutable std::mutex m_mutex;

@@ -29,5 +29,11 @@ void evaluate(INOUT(Lane) lane) {
     const int rules = takeIndex(lane, 2);
     const int guard = takeIndex(lane, 2);
     const Access access = accessTo(rules, guard, 0.27f);
-    giveWeights(lane, weighCage(access, v, cage));
+    CageWeights w = weighCage(access, v, cage);
+    giveWeights(lane, w);
+    weighProbes(access, v, cage, cageSlots(v, cage.base), w);
+    give(lane, w.weightSum, 2e-4f);
+    weighPairs(access, v, cage, cageSlots(v, cage.base), w);
+    give(lane, w.trust, 1e-3f);
+    give(lane, frontWeight(w, w.axis == 0, w.axis == 2, w.up == 1, 2), 1e-4f);
 }

@@ -32,12 +32,11 @@ void evaluate(INOUT(Lane) lane) {
     giveVec3(lane, base, 0.0f);
     giveVec3(lane, cageAlpha(inGrid, base), 0.0f);
     const CageSlots slots = cageSlots(v, base);
+    giveBits(lane, uint(ringOffset(int(base.y), phaseY, countY, countX)));
+    giveBits(lane, uint(nextInRing(slots.x[0], 1, countX)));
     for (int corner = 0; corner < 8; ++corner) giveBits(lane, uint(cornerSlot(v, slots, corner)));
     const ivec3 neighbour = neighbourCell(ivec3(base), takeIndex(lane, kNeighbours));
     giveBits(lane, uint(neighbour.x + 64));
     giveBits(lane, uint(neighbour.y + 64));
     giveBits(lane, uint(neighbour.z + 64));
-    giveBits(lane, isInGrid(neighbour, counts) ? 1u : 0u);
-    giveBits(lane, uint(probeNumber(ivec3(base), counts)));
-    giveVec3(lane, probePlace(neighbour, origin, spacing), 2e-6f);
 }

@@ -26,4 +26,11 @@ void evaluate(INOUT(Lane) lane) {
         giveSample(lane, samplePunctual(type, light, direction, intensity, 0.0f, cosInner, cosOuter, point), 2e-4f);
     }
     giveSample(lane, samplePunctual(kLightPoint, light, direction, intensity, 0.0f, cosInner, cosOuter, light), 0.0f);
+
+    // Along the axes and on whole numbers, so that no sign hangs on a rounding.
+    LightSample whole;
+    whole.toLight = floor(direction * 4.0f);
+    whole.distance = 1.0f;
+    whole.irradianceAtNormal = max(floor(intensity * 0.04f) - 2.0f, vec3(0.0f));
+    giveBits(lane, reachesSurface(whole, floor(away * 4.0f), floor(light)) ? 1u : 0u);
 }

@@ -41,6 +41,7 @@ void evaluate(INOUT(Lane) lane) {
              2e-4f);
     giveVec3(lane, mapNormal(texel, scale, vec4(0.0f), normal), 1e-4f);
     giveVec3(lane, bendTowards(normal, direction), 1e-3f);
+    giveVec3(lane, placePoint(mat4x3(a, b, c, texel), normal), 1e-5f);
     giveVec3(lane, placeNormal(linear, b), 1e-5f);
     giveVec3(lane, placeNormal(linear, vec3(0.0f)), 0.0f);
     // A determinant whose sign does not depend on rounding.

@@ -9,6 +9,7 @@ void evaluate(INOUT(Lane) lane) {
     const ivec3 cell = takeCell(lane, v);
     const int slot = probeSlot(v, cell);
     giveBits(lane, uint(slot));
+    giveBits(lane, uint(ringPlace(cell.x, v.phase.x, v.counts.x)));
     giveCell(lane, probeCell(v, slot));
     giveBits(lane, uint(volumeProbes(v)));
     giveBits(lane, isInVolume(v, cell + ivec3(0, 1, 0)) ? 1u : 0u);
