@@ -23,8 +23,8 @@ void blendAll(benchmark::State& state) {
     BlendWeights weights;
     makeBlendWeights(field.context(), field.desc(), field.settings().visibilityExponent, field.directions(), weights);
     for (auto _ : state) {
-        blendProbes(field.context(), field.desc(), field.settings(), weights, field.rayData(),
-                    {field.tasks(), {0.97f, 0.97f}}, field.storage());
+        blendProbes(field.context(), field.desc(), makeVolumes(field.desc()), field.settings(), weights,
+                    field.rayData(), {field.tasks(), {0.97f, 0.97f}}, field.storage());
         benchmark::ClobberMemory();
     }
     state.counters["a probe"] = perProbe(field, state);

@@ -62,7 +62,7 @@ RoomField::RoomField(LeakGuard guard, glm::ivec3 counts, int raysPerProbe)
         for (const glm::vec3& direction : m_directions) m_rayData.push_back(datum(task.origin, direction));
     BlendWeights weights;
     makeBlendWeights(m_context, m_desc, m_settings.visibilityExponent, m_directions, weights);
-    blendProbes(m_context, m_desc, m_settings, weights, m_rayData, {tasks(), {0.0f, 0.0f}}, m_storage);
+    blendProbes(m_context, m_desc, m_volumes, m_settings, weights, m_rayData, {tasks(), {0.0f, 0.0f}}, m_storage);
 }
 
 FieldView RoomField::view() const {

@@ -98,6 +98,9 @@ public:
     /// Errors: invalidArgument (the message names the setting and its range).
     Result<void> setSettings(const FieldSettings& settings);
 
+    /// Where volume `volume` stands after all scrolling (Field::scroll): desc().volumes[volume] with another origin.
+    VolumeDesc place(int volume) const noexcept;
+
     /// Announces a change to the scene (section 4.3). Its frames are updates, whichever probes these are about.
     void notify(FieldEvent event) noexcept;
 

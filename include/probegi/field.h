@@ -85,6 +85,13 @@ public:
     Result<ConvergeResult> converge(const Tracer& tracer, const Lighting& lighting, float tolerance = 0.03f,
                                     int maxFrames = 256, const std::function<void(const UpdateTimes&)>& onUpdate = {});
 
+    /// Moves the window of a volume by whole cells along the volume's axes, any number of them, so that it follows a
+    /// camera (section 7.3; cellsToCentre() says how far). Probes that stay inside keep all they know. Those that enter
+    /// take the slots of those that leave, and are new: no look-up uses them before their first update, which keeps
+    /// nothing. Excludes queries, as an update does. Errors: invalidArgument (no such volume, beyond 1e9 cells from
+    /// where it was made); of a field on a GPU also deviceLost, outOfMemory.
+    Result<void> scroll(int volume, glm::ivec3 cells);
+
     /// Irradiance E in W m^-2. Unchecked and noexcept: vectors must be finite and unit (`toViewer`: or zero). Outside
     /// all volumes the nearest one's nearest cell answers. A field on a GPU that was lost answers with not-a-number.
     glm::vec3 irradiance(const FieldQuery& query) const noexcept;

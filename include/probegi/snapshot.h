@@ -40,10 +40,11 @@ struct ProbeState {
 /// Some or all probes of a field as they are stored, to look at, to keep, or to give to a field that is made alike. All
 /// backends store the same formats, so a field of one can be written with a snapshot of another. Made by Field::read().
 struct PROBEGI_API FieldSnapshot {
-    FieldDesc desc;    ///< of the field
-    int frame = 0;     ///< FieldControl::frame()
-    int rayTurns = 0;  ///< how often the rays were turned: below `frame` after Field::converge()
-    SlotRange slots;   ///< that it holds
+    FieldDesc desc;                    ///< of the field
+    int frame = 0;                     ///< FieldControl::frame()
+    int rayTurns = 0;                  ///< how often the rays were turned: below `frame` after Field::converge()
+    std::vector<glm::ivec3> scrolled;  ///< by volume: how far its window was scrolled, cells
+    SlotRange slots;                   ///< that it holds
     /// Half floats, encoded (E / pi)^(1/5): [slot][texel][rgb], rows of the octahedral map from the top, no border.
     std::vector<std::uint16_t> irradiance;
     /// Mean (low 16 bits) and mean square (high 16 bits) of distance / visibilityRange(), unorm: [slot][texel].

@@ -3,6 +3,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "probegi/export.h"
+
 namespace probegi {
 
 /// A lattice of probes. Probe (x, y, z) stands at (x, y, z) * spacing, turned by `orientation`, from `origin`;
@@ -16,6 +18,10 @@ struct VolumeDesc {
 
     bool operator==(const VolumeDesc&) const = default;
 };
+
+/// By how many whole cells the volume's window must be scrolled (Field::scroll) so that a point of the world, the
+/// camera say, is within half a cell of its middle.
+PROBEGI_API glm::ivec3 cellsToCentre(const VolumeDesc& volume, glm::vec3 point) noexcept;
 
 inline int probeCount(const VolumeDesc& v) {
     return v.counts.x * v.counts.y * v.counts.z;

@@ -87,20 +87,22 @@ void divideByValidity(const Matrix& validity, Matrix& irradiance) {
             irradiance(row, texel) = kernels::withoutBackfaces(irradiance(row, texel), validity(row / 3, texel));
 }
 
-const FrameHysteresis& hysteresisOf(const BlendFrame& frame, std::size_t task) {
-    return frame.steps.empty() ? frame.hysteresis : frame.steps[task].hysteresis;
+// What a probe keeps. A new one keeps nothing: with windows its step says so.
+FrameHysteresis keptBy(const BlendFrame& frame, std::size_t task, const kernels::PackedProbeFilter& filter) {
+    if (!frame.steps.empty()) return frame.steps[task].hysteresis;
+    return kernels::isNew(filter) ? FrameHysteresis{0.0f, 0.0f} : frame.hysteresis;
 }
 
 // A probe that is blended. Dither goes by its number in the volume: a volume's probes do not depend on others.
 struct Probe {
     std::size_t task, slot, number;
+    FrameHysteresis kept;
 };
 
 // One probe's new irradiance (rows r, g, b over the texels) joins the stored one.
 void storeIrradiance(const FieldSettings& settings, const BlendFrame& frame, const Matrix& mean, std::size_t row,
                      const Probe& probe, std::size_t texels, std::uint16_t* map) {
-    const FrameHysteresis& hysteresis = hysteresisOf(frame, probe.task);
-    const kernels::BlendRule rule{hysteresis.irradiance, settings.significantChange, settings.newDistribution};
+    const kernels::BlendRule rule{probe.kept.irradiance, settings.significantChange, settings.newDistribution};
     const float* r = &mean(row, 0);
     const float* g = &mean(row + 1, 0);
     const float* b = &mean(row + 2, 0);
@@ -133,11 +135,11 @@ float changeOf(const Matrix& mean, std::size_t row, std::size_t texels, const st
 void storeVisibility(const BlendFrame& frame, const Matrix& mean, std::size_t row, const Probe& probe,
                      std::span<const float> evidence, std::uint32_t* map) {
     const std::size_t texels = evidence.size();
-    const float h = hysteresisOf(frame, probe.task).visibility;
     const float* d = &mean(row, 0);
     const float* dd = &mean(row + 1, 0);
     for (std::size_t t = 0; t < texels; ++t)
-        map[t] = kernels::blendVisibilityTexel(map[t], {d[t], dd[t]}, kernels::keptMoments(h, evidence[t]),
+        map[t] = kernels::blendVisibilityTexel(map[t], {d[t], dd[t]},
+                                               kernels::keptMoments(probe.kept.visibility, evidence[t]),
                                                frame.ditherSeed, std::uint32_t(probe.number * texels + t));
 }
 
@@ -170,11 +172,10 @@ void makeBlendWeights(const Context& context, const FieldDesc& desc, float expon
         e = desc.rules == FieldRules::paper ? 1.0f : kernels::visibilityEvidence(e, exponent, int(directions.size()));
 }
 
-void blendProbes(const Context& context, const FieldDesc& desc, const FieldSettings& settings,
-                 const BlendWeights& weights, std::span<const RayDatum> rayData, const BlendFrame& frame,
-                 FieldStorage& storage, std::span<const kernels::EmitterLight> emitters) {
+void blendProbes(const Context& context, const FieldDesc& desc, std::span<const kernels::Volume> volumes,
+                 const FieldSettings& settings, const BlendWeights& weights, std::span<const RayDatum> rayData,
+                 const BlendFrame& frame, FieldStorage& storage, std::span<const kernels::EmitterLight> emitters) {
     const FieldLayout layout(desc);
-    const std::vector<kernels::Volume> volumes = makeVolumes(desc);
     const bool weighted = settings.backfaceRule == BackfaceRule::excluded;
     const EmitterBlend looks(desc.irradianceTexels, emitters, frame.tasks.size());
     parallelFor(context, frame.tasks.size(), kBlock, [&](std::size_t begin, std::size_t end) {
@@ -191,12 +192,14 @@ void blendProbes(const Context& context, const FieldDesc& desc, const FieldSetti
         }
         for (std::size_t row = 0; row < tasks.size(); ++row) {
             const std::size_t slot = tasks[row].slot;
-            const Probe probe{begin + row, slot, slot - std::size_t(volumes[tasks[row].volume].firstSlot)};
+            const Probe probe{begin + row, slot,
+                              std::size_t(kernels::probeNumber(volumes[tasks[row].volume], int(slot))),
+                              keptBy(frame, begin + row, storage.filters[slot])};
             std::uint16_t* map = storage.irradiance.data() + 3 * slot * layout.irradianceTexels;
             if (!frame.steps.empty())
                 frame.steps[probe.task].change = changeOf(irradiance, 3 * row, layout.irradianceTexels, map);
             storeIrradiance(settings, frame, irradiance, 3 * row, probe, layout.irradianceTexels, map);
-            storeSides(hysteresisOf(frame, probe.task).visibility, in.seen[row], int(layout.rays), storage.sides[slot],
+            storeSides(probe.kept.visibility, in.seen[row], int(layout.rays), storage.sides[slot],
                        storage.backfaceShare[slot]);
             storeVisibility(frame, visibility, 2 * row, probe, weights.evidence,
                             storage.visibility.data() + slot * layout.visibilityTexels);

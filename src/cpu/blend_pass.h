@@ -40,8 +40,8 @@ struct BlendFrame {
 /// Blends the tasks' ray data into the storage: weights x data, then encoding, hysteresis and storage.
 /// rayData is [task][ray]. Values that are not finite count as 0 radiance and as the farthest distance.
 /// `emitters`: what the probes' looks at emitters brought, [task][look], or nothing.
-void blendProbes(const Context& context, const FieldDesc& desc, const FieldSettings& settings,
-                 const BlendWeights& weights, std::span<const RayDatum> rayData, const BlendFrame& frame,
-                 FieldStorage& storage, std::span<const kernels::EmitterLight> emitters = {});
+void blendProbes(const Context& context, const FieldDesc& desc, std::span<const kernels::Volume> volumes,
+                 const FieldSettings& settings, const BlendWeights& weights, std::span<const RayDatum> rayData,
+                 const BlendFrame& frame, FieldStorage& storage, std::span<const kernels::EmitterLight> emitters = {});
 
 }  // namespace probegi

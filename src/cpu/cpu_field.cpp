@@ -68,7 +68,7 @@ void CpuField::blend(const UpdateFrame& frame, std::span<const RayDatum> rayData
     makeBlendWeights(m_context, m_desc, frame.settings.visibilityExponent, frame.directions, m_weights);
     BlendFrame how{frame.tasks, frame.hysteresis, frame.linear, frame.ditherSeed};
     if (frame.windows) how.steps = m_filter.chooseWindows(m_context, frame, m_volumes, rayData, fixedRays, m_storage);
-    blendProbes(m_context, m_desc, frame.settings, m_weights, rayData, how, m_storage, emitters);
+    blendProbes(m_context, m_desc, frame.volumes, frame.settings, m_weights, rayData, how, m_storage, emitters);
     if (frame.windows)
         m_filter.advance(m_context, frame, m_volumes, m_storage);
     else
@@ -99,10 +99,10 @@ Result<UpdateTimes> CpuField::update(const UpdateFrame& frame, const Tracer& tra
         };
     const EmitterSearch emitters = emitterSearch(m_desc, tracer, frame.raySeed);
     m_emitterLights.resize(tasks * std::size_t(emitters.looks));
-    auto done = traceProbes(m_context, m_desc, frame.tasks, {frame.directions, frame.fixedDirections}, tracer, lighting,
-                            bounces, emitters, {m_rayData, m_fixedRays}, sums);
+    auto done = traceProbes(m_context, frame.volumes, frame.tasks, {frame.directions, frame.fixedDirections}, tracer,
+                            lighting, bounces, emitters, {m_rayData, m_fixedRays}, sums);
     if (done && emitters)
-        done = lookAtEmitters(m_context, m_desc, frame.tasks, emitters, tracer, m_emitterLights, sums);
+        done = lookAtEmitters(m_context, frame.volumes, frame.tasks, emitters, tracer, m_emitterLights, sums);
     if (!done) return done.error();
     const double traced = millisecondsSince(start);
     blend(frame, m_rayData, m_fixedRays, m_emitterLights);
@@ -144,6 +144,28 @@ Result<ProbeLight> CpuField::light() const {
         }
     });
     return light;
+}
+
+void CpuField::place(std::span<const kernels::Volume> volumes) noexcept {
+    std::copy(volumes.begin(), volumes.end(), m_volumes.begin());
+}
+
+Result<void> CpuField::enter(const FieldSettings&, int volume, glm::ivec3 cells) {
+    const kernels::Volume& v = m_volumes[std::size_t(volume)];
+    const auto clear = [](auto& values, std::size_t slot, std::size_t each) {
+        std::fill_n(values.begin() + std::ptrdiff_t(slot * each), each, 0);
+    };
+    parallelFor(m_context, std::size_t(kernels::volumeProbes(v)), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t slot = std::size_t(v.firstSlot) + begin; slot < std::size_t(v.firstSlot) + end; ++slot) {
+            if (!kernels::hasEntered(v, kernels::probeCell(v, int(slot)), cells)) continue;
+            clear(m_storage.irradiance, slot, 3 * m_layout.irradianceTexels);
+            clear(m_storage.visibility, slot, m_layout.visibilityTexels);
+            m_storage.filters[slot] = kernels::newFilter();
+            m_storage.sides[slot] = kernels::noSides();
+            m_storage.backfaceShare[slot] = 1.0f;  // until its first update no look-up uses it
+        }
+    });
+    return {};
 }
 
 Result<FieldSnapshot> CpuField::read(SlotRange slots) const {

@@ -22,6 +22,8 @@ public:
                             std::span<glm::vec3> out) const override;
     glm::vec3 irradiance(const FieldSettings& settings, const FieldQuery& query) const noexcept override;
     Result<ProbeLight> light() const override;
+    void place(std::span<const kernels::Volume> volumes) noexcept override;
+    Result<void> enter(const FieldSettings& settings, int volume, glm::ivec3 cells) override;
     Result<FieldSnapshot> read(SlotRange slots) const override;
     Result<void> write(const FieldSnapshot& snapshot) override;
 

@@ -97,7 +97,7 @@ void TemporalFilter::advance(const Context& context, const UpdateFrame& frame, s
             filter.noise =
                 kernels::nextNoise(filter.noise, step.change, step.lag, filter.window, kernels::isUnknown(filter));
             kernels::advanceFilter(filter, m_sights[i]);
-            const std::uint32_t number = task.slot - std::uint32_t(volumes[task.volume].firstSlot);
+            const std::uint32_t number = std::uint32_t(kernels::probeNumber(volumes[task.volume], int(task.slot)));
             storage.filters[task.slot] = kernels::packFilter(filter, kernels::storageDither(frame.ditherSeed, number));
         }
     });

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdlib>
 #include <new>
 
 #include "core/sentence.h"
@@ -6,6 +7,7 @@
 #include "field/layout.h"
 #include "kernels/blend/temporal_filter.h"
 #include "kernels/trace/ray_set.h"
+#include "kernels/volume/volume_frame.h"
 
 namespace probegi {
 
@@ -24,19 +26,28 @@ std::uint32_t ditherSeedOf(const FieldDesc& desc, int frame) {
     return kernels::hashCombine(seedOf(desc) ^ 0x6a09e667u, std::uint32_t(frame));
 }
 
+// As VolumeDesc's probePosition, to the bit, for a probe by its slot.
+glm::vec3 positionOf(const kernels::Volume& volume, int slot) {
+    return kernels::probePosition(volume, kernels::probeCell(volume, slot));
+}
+
 }  // namespace
 
-std::vector<ProbeTask> allTasks(const FieldDesc& desc) {
+std::vector<ProbeTask> allTasks(std::span<const kernels::Volume> volumes) {
     std::vector<ProbeTask> tasks;
-    tasks.reserve(std::size_t(probeCount(desc)));
-    for (std::uint32_t volume = 0; volume < desc.volumes.size(); ++volume)
-        for (int number = 0; number < probeCount(desc.volumes[volume]); ++number)
-            tasks.push_back({probePosition(desc.volumes[volume], number), std::uint32_t(tasks.size()), volume});
+    for (std::uint32_t volume = 0; volume < volumes.size(); ++volume)
+        for (int i = 0; i < kernels::volumeProbes(volumes[volume]); ++i)
+            tasks.push_back({positionOf(volumes[volume], int(tasks.size())), std::uint32_t(tasks.size()), volume});
     return tasks;
 }
 
 FieldControl::Impl::Impl(const FieldDesc& d, const FieldSettings& s)
-    : desc(d), settings(s), tasks(allTasks(d)), directions(std::size_t(d.raysPerProbe)) {
+    : desc(d),
+      settings(s),
+      scrolled(d.volumes.size()),
+      volumes(makeVolumes(d)),
+      tasks(allTasks(volumes)),
+      directions(std::size_t(d.raysPerProbe)) {
     turnRays();
     const std::uint32_t fixed = desc.rules == FieldRules::measured ? std::uint32_t(desc.fixedRays) : 0u;
     for (std::uint32_t i = 0; i < fixed; ++i) fixedDirections.push_back(kernels::sphericalFibonacci(i, fixed));
@@ -58,6 +69,7 @@ std::size_t FieldControl::Impl::bytes() const noexcept {
 UpdateFrame FieldControl::Impl::comingUpdate() const noexcept {
     UpdateFrame coming{.desc = desc,
                        .settings = settings,
+                       .volumes = volumes,
                        .tasks = tasks,
                        .taskList = taskList,
                        .directions = directions,
@@ -116,11 +128,43 @@ void FieldControl::Impl::restart() {
 void FieldControl::Impl::describe(FieldSnapshot& snapshot) const noexcept {
     snapshot.frame = frame;
     snapshot.rayTurns = turns;
+    snapshot.scrolled = scrolled;
+}
+
+void FieldControl::Impl::placeVolumes(std::vector<glm::ivec3> cells) {
+    std::vector<kernels::Volume> placed = makeVolumes(desc, cells);
+    for (ProbeTask& task : tasks) task.origin = positionOf(placed[task.volume], int(task.slot));
+    volumes = std::move(placed);
+    scrolled = std::move(cells);
+}
+
+Result<void> FieldControl::Impl::scroll(int volume, glm::ivec3 cells) {
+    constexpr int kFarthest = 1'000'000'000;
+    if (volume < 0 || std::size_t(volume) >= desc.volumes.size())
+        return fail(ErrorCode::invalidArgument,
+                    sentence("there is no volume ", volume, "; the field has ", desc.volumes.size()));
+    std::vector<glm::ivec3> moved = scrolled;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::int64_t sum = std::int64_t(moved[std::size_t(volume)][axis]) + cells[axis];
+        if (std::abs(sum) > kFarthest)
+            return fail(ErrorCode::invalidArgument,
+                        sentence("a volume can be scrolled by ", kFarthest, " cells from where it was made"));
+        moved[std::size_t(volume)][axis] = int(sum);
+    }
+    placeVolumes(std::move(moved));
+    return {};
+}
+
+Result<void> FieldControl::Impl::accepts(const FieldSnapshot& snapshot) const {
+    if (snapshot.slots.count == probeCount(desc) || snapshot.scrolled == scrolled) return {};
+    return fail(ErrorCode::invalidArgument,
+                "the snapshot's volumes were scrolled elsewhere; scroll the field's alike, or write all slots");
 }
 
 void FieldControl::Impl::goOnFrom(const FieldSnapshot& snapshot) {
     events = {};
     const bool whole = snapshot.slots.count == probeCount(desc);
+    if (whole) placeVolumes(snapshot.scrolled);
     if (!whole && snapshot.frame <= frame) return;
     frame = snapshot.frame;
     turns = snapshot.rayTurns;
@@ -142,6 +186,9 @@ const FieldSettings& FieldControl::settings() const noexcept {
 }
 int FieldControl::frame() const noexcept {
     return m_impl->frame;
+}
+VolumeDesc FieldControl::place(int volume) const noexcept {
+    return scrolledVolume(m_impl->desc.volumes[std::size_t(volume)], m_impl->scrolled[std::size_t(volume)]);
 }
 void FieldControl::notify(FieldEvent event) noexcept {
     m_impl->events.notify(event);
@@ -165,11 +212,11 @@ Result<void> FieldControl::setSettings(const FieldSettings& settings) {
 Result<void> FieldControl::setTasks(std::span<const std::uint32_t> slots) try {
     const FieldDesc& desc = m_impl->desc;
     if (slots.empty()) {
-        m_impl->tasks = allTasks(desc);
+        m_impl->tasks = allTasks(m_impl->volumes);
         m_impl->taskList = 0;
         return {};
     }
-    const std::vector<kernels::Volume> volumes = makeVolumes(desc);
+    const std::span<const kernels::Volume> volumes = m_impl->volumes;
     std::vector<bool> taken(std::size_t(probeCount(desc)));
     std::vector<ProbeTask> chosen;
     chosen.reserve(slots.size());
@@ -182,8 +229,7 @@ Result<void> FieldControl::setTasks(std::span<const std::uint32_t> slots) try {
                         sentence("slot ", slot, " is listed twice; an update has each probe once"));
         taken[slot] = true;
         const std::size_t volume = volumeOf(volumes, int(slot));
-        chosen.push_back(
-            {probePosition(desc.volumes[volume], int(slot) - volumes[volume].firstSlot), slot, std::uint32_t(volume)});
+        chosen.push_back({positionOf(volumes[volume], int(slot)), slot, std::uint32_t(volume)});
     }
     m_impl->tasks = std::move(chosen);
     m_impl->taskList = ++m_impl->taskLists;

@@ -31,14 +31,21 @@ struct FieldControl::Impl {
     void restart();
     /// Fills in what a snapshot says of the books.
     void describe(FieldSnapshot& snapshot) const noexcept;
+    /// Whether a snapshot of some slots stands where the field does. Errors: invalidArgument.
+    Result<void> accepts(const FieldSnapshot& snapshot) const;
     /// After the probes were written: Field::write.
     void goOnFrom(const FieldSnapshot& snapshot);
     std::size_t bytes() const noexcept;
     std::size_t rayCount() const noexcept { return tasks.size() * directions.size(); }
     std::size_t fixedRayCount() const noexcept { return tasks.size() * fixedDirections.size(); }
 
+    /// Moves a volume's window: its place, the phase of its slots, the origins of tasks. Errors: invalidArgument.
+    Result<void> scroll(int volume, glm::ivec3 cells);
+
     FieldDesc desc;
     FieldSettings settings;
+    std::vector<glm::ivec3> scrolled;      // by volume, cells
+    std::vector<kernels::Volume> volumes;  // as they stand now
     std::vector<ProbeTask> tasks;
     std::uint32_t taskList = 0;   // number of the list; 0: all probes
     std::uint32_t taskLists = 0;  // so far
@@ -50,10 +57,11 @@ struct FieldControl::Impl {
 
 private:
     void turnRays();
+    void placeVolumes(std::vector<glm::ivec3> cells);
 };
 
 /// A field's probes, in the order of their slots.
-std::vector<ProbeTask> allTasks(const FieldDesc& desc);
+std::vector<ProbeTask> allTasks(std::span<const kernels::Volume> volumes);
 
 /// The desc and settings must be valid.
 FieldControl makeFieldControl(const FieldDesc& desc, const FieldSettings& settings);

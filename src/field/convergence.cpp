@@ -40,8 +40,9 @@ constexpr double kAverageVariance = 9.0 / 5.0;
 
 }  // namespace
 
-Convergence::Convergence(const FieldDesc& desc, float tolerance, int maxUpdates)
-    : m_volumes(makeVolumes(desc)),
+Convergence::Convergence(const FieldDesc& desc, std::span<const kernels::Volume> volumes, float tolerance,
+                         int maxUpdates)
+    : m_volumes(volumes.begin(), volumes.end()),
       m_probeNoise(kStorageNoise / desc.irradianceTexels),
       m_tolerance(tolerance),
       m_maxUpdates(maxUpdates) {}

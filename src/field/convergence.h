@@ -21,7 +21,7 @@ namespace probegi {
 /// counts as much as a sunlit one. Probes in walls and almost unlit probes are ignored.
 class Convergence {
 public:
-    Convergence(const FieldDesc& desc, float tolerance, int maxUpdates);
+    Convergence(const FieldDesc& desc, std::span<const kernels::Volume> volumes, float tolerance, int maxUpdates);
 
     /// Shares of the old values that the next update keeps; a negative one extrapolates beyond the new values.
     FrameHysteresis kept() const noexcept;

@@ -20,7 +20,7 @@ constexpr const char* kNoRayDataMemory = "no memory for the update's ray data; u
 class Averaging {
 public:
     explicit Averaging(FieldControl::Impl& books)
-        : m_books(books), m_tasks(allTasks(books.desc)), m_list(books.taskList) {
+        : m_books(books), m_tasks(allTasks(books.volumes)), m_list(books.taskList) {
         std::swap(m_books.tasks, m_tasks);
         m_books.taskList = 0;
         m_books.setAveraging(true);
@@ -137,7 +137,7 @@ Result<ConvergeResult> Field::converge(const Tracer& tracer, const Lighting& lig
     Impl& m = *m_impl;
     Progress progress(m.context, "converging probes", maxFrames);
     FieldControl::Impl& books = m.books();
-    Convergence convergence(books.desc, tolerance, maxFrames);
+    Convergence convergence(books.desc, books.volumes, tolerance, maxFrames);
     const Averaging averaging(books);
     while (convergence.updates() < maxFrames && !convergence.converged()) {
         const auto times = m.backend->update(books.comingAverage(convergence.kept()), tracer, lighting);
@@ -166,6 +166,15 @@ Result<void> Field::irradiance(std::span<const FieldQuery> queries, std::span<gl
     return fail(ErrorCode::outOfMemory, "no memory for this many queries; ask for fewer at a time");
 }
 
+Result<void> Field::scroll(int volume, glm::ivec3 cells) try {
+    Impl& m = *m_impl;
+    if (auto moved = m.books().scroll(volume, cells); !moved) return moved;
+    m.backend->place(m.books().volumes);
+    return m.backend->enter(m.control.settings(), volume, cells);
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, "no memory to scroll a volume");
+}
+
 Result<FieldSnapshot> Field::read() const {
     return read({0, probeCount(desc())});
 }
@@ -181,8 +190,11 @@ Result<FieldSnapshot> Field::read(SlotRange slots) const try {
 
 Result<void> Field::write(const FieldSnapshot& snapshot) try {
     if (auto ok = validateSnapshot(desc(), snapshot); !ok) return ok;
-    if (auto written = m_impl->backend->write(snapshot); !written) return written;
-    m_impl->books().goOnFrom(snapshot);
+    Impl& m = *m_impl;
+    if (auto ok = m.books().accepts(snapshot); !ok) return ok;
+    if (auto written = m.backend->write(snapshot); !written) return written;
+    m.books().goOnFrom(snapshot);
+    m.backend->place(m.books().volumes);
     return {};
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, "no memory to write the snapshot");

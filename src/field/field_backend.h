@@ -31,6 +31,11 @@ public:
     virtual glm::vec3 irradiance(const FieldSettings& settings, const FieldQuery& query) const noexcept = 0;
     virtual Result<ProbeLight> light() const = 0;
 
+    /// The volumes stand elsewhere from now on: slots keep what they hold.
+    virtual void place(std::span<const kernels::Volume> volumes) noexcept = 0;
+    /// After place(): what the slots of a volume hold whose probes entered with this step is new (Field::scroll).
+    virtual Result<void> enter(const FieldSettings& settings, int volume, glm::ivec3 cells) = 0;
+
     /// The slots and the snapshot were checked.
     virtual Result<FieldSnapshot> read(SlotRange slots) const = 0;
     virtual Result<void> write(const FieldSnapshot& snapshot) = 0;

@@ -1,6 +1,7 @@
 #include "field/layout.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "probegi/snapshot.h"
@@ -17,10 +18,26 @@ std::size_t volumeOf(std::span<const kernels::Volume> volumes, int slot) {
     return volume;
 }
 
+glm::ivec3 cellsToCentre(const VolumeDesc& volume, glm::vec3 point) noexcept {
+    const glm::vec3 inVolume = glm::conjugate(volume.orientation) * (point - volume.origin);
+    return glm::ivec3(glm::round(inVolume / volume.spacing - 0.5f * glm::vec3(volume.counts - 1)));
+}
+
+VolumeDesc scrolledVolume(const VolumeDesc& volume, glm::ivec3 cells) {
+    VolumeDesc moved = volume;
+    moved.origin += volume.orientation * (glm::vec3(cells) * volume.spacing);
+    return moved;
+}
+
 std::vector<kernels::Volume> makeVolumes(const FieldDesc& desc) {
+    return makeVolumes(desc, std::vector<glm::ivec3>(desc.volumes.size()));
+}
+
+std::vector<kernels::Volume> makeVolumes(const FieldDesc& desc, std::span<const glm::ivec3> scrolled) {
     std::vector<kernels::Volume> volumes;
     int firstSlot = 0;
-    for (const VolumeDesc& v : desc.volumes) {
+    for (std::size_t i = 0; i < desc.volumes.size(); ++i) {
+        const VolumeDesc v = scrolledVolume(desc.volumes[i], scrolled[i]);
         const bool turned = v.orientation != glm::quat(1.0f, 0.0f, 0.0f, 0.0f);
         volumes.push_back({.origin = v.origin,
                            .minSpacing = std::min({v.spacing.x, v.spacing.y, v.spacing.z}),
@@ -31,7 +48,8 @@ std::vector<kernels::Volume> makeVolumes(const FieldDesc& desc) {
                            .counts = v.counts,
                            .turned = turned ? 1 : 0,
                            .orientation = {v.orientation.x, v.orientation.y, v.orientation.z, v.orientation.w},
-                           .phase = glm::ivec3(0),
+                           // GLM's remainder has the sign of the dividend.
+                           .phase = (scrolled[i] % v.counts + v.counts) % v.counts,
                            .maxDistance = visibilityRange(v)});
         firstSlot += probeCount(v);
     }

@@ -34,6 +34,11 @@ struct FieldLayout {
 
 /// A field's volumes as kernels know them, in the order of the desc.
 std::vector<kernels::Volume> makeVolumes(const FieldDesc& desc);
+/// The same after scrolling by so many cells, by volume.
+std::vector<kernels::Volume> makeVolumes(const FieldDesc& desc, std::span<const glm::ivec3> scrolled);
+
+/// A volume after scrolling by so many cells.
+VolumeDesc scrolledVolume(const VolumeDesc& volume, glm::ivec3 cells);
 
 /// Which volume has the probe in a slot.
 std::size_t volumeOf(std::span<const kernels::Volume> volumes, int slot);

@@ -69,12 +69,11 @@ EmitterSearch emitterSearch(const FieldDesc& desc, const Tracer& tracer, std::ui
     return {set, desc.raysPerProbe, looks, frameSeed};
 }
 
-Result<void> lookAtEmitters(const Context& context, const FieldDesc& desc, std::span<const ProbeTask> tasks,
-                            const EmitterSearch& search, const Tracer& tracer, std::span<kernels::EmitterLight> out,
-                            TraceTimes& times) {
+Result<void> lookAtEmitters(const Context& context, std::span<const kernels::Volume> volumes,
+                            std::span<const ProbeTask> tasks, const EmitterSearch& search, const Tracer& tracer,
+                            std::span<kernels::EmitterLight> out, TraceTimes& times) {
     const float magnitude = sceneMagnitude(tracer.bounds());
     const std::size_t looks = std::size_t(search.looks);
-    const std::vector<kernels::Volume> volumes = makeVolumes(desc);
     const auto look = [&](std::size_t begin, std::size_t end) -> Result<void> {
         thread_local TaskBuffers b;
         const auto start = TraceTimes::Clock::now();
@@ -82,7 +81,7 @@ Result<void> lookAtEmitters(const Context& context, const FieldDesc& desc, std::
         b.aims.clear();
         b.materials.clear();
         for (const ProbeTask& task : tasks.subspan(begin, end - begin)) {
-            const std::uint32_t number = task.slot - std::uint32_t(volumes[task.volume].firstSlot);
+            const std::uint32_t number = std::uint32_t(kernels::probeNumber(volumes[task.volume], int(task.slot)));
             const std::uint32_t seed = kernels::emitterSeed(search.seed, number);
             for (std::uint32_t i = 0; i < std::uint32_t(looks); ++i) aim(task.origin, seed, i, search, magnitude, b);
         }

@@ -32,8 +32,8 @@ EmitterSearch emitterSearch(const FieldDesc& desc, const Tracer& tracer, std::ui
 
 /// Emitter samples of the tasks' probes, as [task][look], on the context's threads. The search must not be
 /// empty. Errors: those of the tracer.
-Result<void> lookAtEmitters(const Context& context, const FieldDesc& desc, std::span<const ProbeTask> tasks,
-                            const EmitterSearch& search, const Tracer& tracer, std::span<kernels::EmitterLight> out,
-                            TraceTimes& times);
+Result<void> lookAtEmitters(const Context& context, std::span<const kernels::Volume> volumes,
+                            std::span<const ProbeTask> tasks, const EmitterSearch& search, const Tracer& tracer,
+                            std::span<kernels::EmitterLight> out, TraceTimes& times);
 
 }  // namespace probegi

@@ -196,12 +196,12 @@ Result<void> shadeBatch(const Tracer& tracer, const Lighting& lighting, float ma
 
 }  // namespace
 
-Result<void> traceProbes(const Context& context, const FieldDesc& desc, std::span<const ProbeTask> tasks,
-                         const ProbeRayDirections& directions, const Tracer& tracer, const Lighting& lighting,
-                         const BounceQuery& bounces, const EmitterSearch& emitters, const ProbeRayData& out,
-                         TraceTimes& times) {
+Result<void> traceProbes(const Context& context, std::span<const kernels::Volume> volumes,
+                         std::span<const ProbeTask> tasks, const ProbeRayDirections& directions, const Tracer& tracer,
+                         const Lighting& lighting, const BounceQuery& bounces, const EmitterSearch& emitters,
+                         const ProbeRayData& out, TraceTimes& times) {
     const float magnitude = sceneMagnitude(tracer.bounds());
-    const TaskBlocks blocks(desc, tasks);
+    const TaskBlocks blocks(volumes, tasks);
     const std::vector<OrderedDirection> update = alongCurve(directions.update), fixed = alongCurve(directions.fixed);
     const auto traceBatch = [&](const Batch& batch, BatchBuffers& b) -> Result<void> {
         const auto start = TraceTimes::Clock::now();

@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 
+#include "kernels/volume/volume.h"
 #include "probegi/field.h"
 
 namespace probegi {
@@ -46,9 +47,9 @@ struct ProbeRayData {
 /// Traces and shades the rays of the tasks on the context's threads, with any tracer: closest hits, surfaces, punctual
 /// lights with shadow rays, emission (of update rays as far as `emitters` leaves it to them), sky, and the light of
 /// earlier bounces (empty: none). Fills `out`. Errors: those of the tracer and of `bounces`.
-Result<void> traceProbes(const Context& context, const FieldDesc& desc, std::span<const ProbeTask> tasks,
-                         const ProbeRayDirections& directions, const Tracer& tracer, const Lighting& lighting,
-                         const BounceQuery& bounces, const EmitterSearch& emitters, const ProbeRayData& out,
-                         TraceTimes& times);
+Result<void> traceProbes(const Context& context, std::span<const kernels::Volume> volumes,
+                         std::span<const ProbeTask> tasks, const ProbeRayDirections& directions, const Tracer& tracer,
+                         const Lighting& lighting, const BounceQuery& bounces, const EmitterSearch& emitters,
+                         const ProbeRayData& out, TraceTimes& times);
 
 }  // namespace probegi

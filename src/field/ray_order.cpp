@@ -32,8 +32,8 @@ std::uint32_t placeOnCurve(glm::vec3 direction) {
 
 }  // namespace
 
-TaskBlocks::TaskBlocks(const FieldDesc& desc, std::span<const ProbeTask> tasks) : m_tasks(tasks.size()) {
-    const std::vector<kernels::Volume> volumes = makeVolumes(desc);
+TaskBlocks::TaskBlocks(std::span<const kernels::Volume> volumes, std::span<const ProbeTask> tasks)
+    : m_tasks(tasks.size()) {
     std::vector<std::uint32_t> firstBlock;
     std::uint32_t blocks = 0;
     for (const kernels::Volume& v : volumes) {

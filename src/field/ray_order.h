@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "kernels/volume/volume.h"
 #include "probegi/control.h"
 
 namespace probegi {
@@ -18,7 +19,7 @@ class TaskBlocks {
 public:
     static constexpr int kMostTasks = 16;
 
-    TaskBlocks(const FieldDesc& desc, std::span<const ProbeTask> tasks);
+    TaskBlocks(std::span<const kernels::Volume> volumes, std::span<const ProbeTask> tasks);
 
     std::size_t count() const noexcept { return m_begins.size() - 1; }
     /// Numbers of the tasks of one box, in their order; none where no task is in the box.

@@ -68,6 +68,7 @@ FieldSnapshot emptySnapshot(const FieldDesc& desc, SlotRange slots) {
     FieldSnapshot snapshot;
     snapshot.desc = desc;
     snapshot.slots = slots;
+    snapshot.scrolled.resize(desc.volumes.size());
     snapshot.irradiance.resize(std::size_t(slots.count) * 3 * layout.irradianceTexels);
     snapshot.visibility.resize(std::size_t(slots.count) * layout.visibilityTexels);
     snapshot.states.resize(std::size_t(slots.count));
@@ -92,6 +93,10 @@ Result<void> validateSnapshot(const FieldDesc& desc, const FieldSnapshot& snapsh
                              " and ", desc.visibilityTexels));
     if (auto ok = validateSlots(desc, snapshot.slots); !ok) return ok;
     if (auto ok = validateLengths(FieldLayout(desc), snapshot); !ok) return ok;
+    if (snapshot.scrolled.size() != desc.volumes.size())
+        return fail(ErrorCode::invalidArgument,
+                    sentence("the snapshot says of ", snapshot.scrolled.size(),
+                             " volumes how far they were scrolled; it has ", desc.volumes.size()));
     if (snapshot.frame < 0 || snapshot.rayTurns < 0 || snapshot.rayTurns > snapshot.frame)
         return fail(ErrorCode::invalidArgument, sentence("the snapshot cannot be of frame ", snapshot.frame, " after ",
                                                          snapshot.rayTurns, " turns of the rays"));

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "field/hysteresis.h"
+#include "kernels/volume/volume.h"
 #include "probegi/field.h"
 
 namespace probegi {
@@ -12,9 +13,10 @@ namespace probegi {
 struct UpdateFrame {
     const FieldDesc& desc;
     const FieldSettings& settings;
-    std::span<const ProbeTask> tasks;         ///< the probes to update; ray data are [task][ray]
-    std::uint32_t taskList = 0;               ///< differs between lists of tasks
-    std::span<const glm::vec3> directions{};  ///< unit, raysPerProbe of them
+    std::span<const kernels::Volume> volumes;  ///< as they stand
+    std::span<const ProbeTask> tasks;          ///< the probes to update; ray data are [task][ray]
+    std::uint32_t taskList = 0;                ///< differs between lists of tasks
+    std::span<const glm::vec3> directions{};   ///< unit, raysPerProbe of them
     FrameHysteresis hysteresis{};
     bool linear = false;   ///< kernels::blendLinear instead of blendEncoded
     bool windows = false;  ///< each probe at the rate of its own window, in place of `hysteresis`; linear is true then

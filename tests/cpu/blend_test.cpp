@@ -45,7 +45,7 @@ struct BlendInput {
         const Context context = *Context::create({.threads = threads});
         BlendWeights weights;
         makeBlendWeights(context, desc, desc.visibilityExponent, directions, weights);
-        blendProbes(context, desc, desc, weights, data, frame, storage);
+        blendProbes(context, desc, makeVolumes(desc), desc, weights, data, frame, storage);
     }
 
     float stored(std::size_t probe, std::size_t texel, int channel) const {

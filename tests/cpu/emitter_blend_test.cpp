@@ -39,7 +39,8 @@ TEST(EmitterBlend, isTheSumOverSamples) {
     makeBlendWeights(context, desc, desc.visibilityExponent, directions, weights);
     const FieldControl control = makeFieldControl(desc, desc);
     const std::vector<RayDatum> data(layout.probes * layout.rays, RayDatum{glm::vec3(0.0f), 1.0f});
-    blendProbes(context, desc, desc, weights, data, {control.tasks(), {0, 0}, false, 3}, storage, looks);
+    blendProbes(context, desc, makeVolumes(desc), desc, weights, data, {control.tasks(), {0, 0}, false, 3}, storage,
+                looks);
     for (std::size_t probe = 0; probe < layout.probes; ++probe)
         for (int texel = 0; texel < 64; ++texel) {
             const glm::vec3 n = kernels::octTexelDirection(texel % 8, texel / 8, 8);

@@ -30,7 +30,7 @@ struct Ending {
 Ending converge(const std::vector<Room>& rooms, float tolerance, int maxUpdates, int seed = 1) {
     FieldSetup desc;
     desc.volumes[0].counts = {4 * int(rooms.size()), 4, 4};
-    Ending end{std::vector<double>(rooms.size()), Convergence(desc, tolerance, maxUpdates)};
+    Ending end{std::vector<double>(rooms.size()), Convergence(desc, makeVolumes(desc), tolerance, maxUpdates)};
     std::mt19937 random{std::uint32_t(seed)};
     std::normal_distribution<double> normal;
     std::vector<double> turned(rooms.size());
@@ -134,7 +134,7 @@ TEST(Convergence, wallsAndBlackRoomsDoNotBlock) {
 TEST(Convergence, keepsWhatItSays) {
     FieldSetup desc;
     desc.volumes[0].counts = {4, 4, 4};
-    Convergence books(desc, 0.01f, 4);
+    Convergence books(desc, makeVolumes(desc), 0.01f, 4);
     EXPECT_EQ(books.kept().irradiance, 0);
     EXPECT_EQ(books.kept().visibility, 0);
     books.advance({}, {});
@@ -153,7 +153,7 @@ TEST(Convergence, keepsWhatItSays) {
 TEST(Convergence, whatRemainsIsScatterAndDrift) {
     FieldSetup desc;
     desc.volumes[0].counts = {4, 4, 4};
-    Convergence books(desc, 1e-6f, 1000);
+    Convergence books(desc, makeVolumes(desc), 1e-6f, 1000);
     const std::vector<float> shares(64, 0.0f);
     const auto tell = [&](double light) { books.advance(std::vector<float>(64, float(light)), shares); };
     for (int still = 0; still < 5; ++still) books.observes() ? tell(1) : books.advance({}, {});

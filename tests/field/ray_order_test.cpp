@@ -25,7 +25,7 @@ TEST(RayOrder, blocksHaveEveryTaskOnceInOrder) {
     for (const auto& counts : {std::vector{glm::ivec3(2, 2, 2)}, {glm::ivec3(3, 5, 7)}, {{8, 4, 9}, {3, 3, 3}}}) {
         const FieldSetup setup = withVolumes(counts);
         const FieldControl control = makeFieldControl(setup, setup);
-        const TaskBlocks blocks(setup, control.tasks());
+        const TaskBlocks blocks(makeVolumes(setup), control.tasks());
         std::vector<int> seen(control.tasks().size(), 0);
         for (std::size_t block = 0; block < blocks.count(); ++block) {
             const auto tasks = blocks.tasksOf(block);
@@ -41,7 +41,7 @@ TEST(RayOrder, blocksHaveEveryTaskOnceInOrder) {
 TEST(RayOrder, tasksOfABlockAreNeighboursInOneVolume) {
     const FieldSetup setup = withVolumes({{9, 6, 8}, {5, 5, 5}});
     const FieldControl control = makeFieldControl(setup, setup);
-    const TaskBlocks blocks(setup, control.tasks());
+    const TaskBlocks blocks(makeVolumes(setup), control.tasks());
     for (std::size_t block = 0; block < blocks.count(); ++block) {
         const ProbeTask& first = control.tasks()[blocks.tasksOf(block).front()];
         for (const std::uint32_t number : blocks.tasksOf(block)) {
@@ -59,7 +59,7 @@ TEST(RayOrder, aListOfSomeProbesHasTheseOnly) {
     FieldControl control = makeFieldControl(setup, setup);
     const std::vector<std::uint32_t> slots{400, 7, 8, 0};
     ASSERT_TRUE(control.setTasks(slots));
-    const TaskBlocks blocks(setup, control.tasks());
+    const TaskBlocks blocks(makeVolumes(setup), control.tasks());
     std::vector<std::uint32_t> found;
     for (std::size_t block = 0; block < blocks.count(); ++block)
         for (const std::uint32_t task : blocks.tasksOf(block)) found.push_back(task);

@@ -57,7 +57,7 @@ PlainField::PlainField(const Context& context, const FieldDesc& desc)
     : m_context(context), m_volumes(makeVolumes(desc)), m_probes(emptySnapshot(desc, {0, probeCount(desc)})) {}
 
 std::uint32_t PlainField::numberOf(const ProbeTask& task) const {
-    return task.slot - std::uint32_t(m_volumes[task.volume].firstSlot);
+    return std::uint32_t(kernels::probeNumber(m_volumes[task.volume], int(task.slot)));
 }
 
 void PlainField::blendIrradiance(const UpdateFrame& frame, const ProbeTask& task, std::span<const RayDatum> rays) {
@@ -135,7 +135,7 @@ Result<UpdateTimes> PlainField::update(const UpdateFrame& frame, const Tracer& t
             return irradiance(frame.settings, queries, out);
         };
     TraceTimes times;
-    const auto traced = traceProbes(m_context, frame.desc, frame.tasks, {frame.directions, {}}, tracer, lighting,
+    const auto traced = traceProbes(m_context, frame.volumes, frame.tasks, {frame.directions, {}}, tracer, lighting,
                                     bounces, {}, {rayData, {}}, times);
     if (!traced) return traced.error();
     return update(frame, rayData, {});
@@ -168,6 +168,21 @@ Result<ProbeLight> PlainField::light() const {
         light.backfaceShares.push_back(m_probes.states[probe].backfaceShare);
     }
     return light;
+}
+
+void PlainField::place(std::span<const kernels::Volume> volumes) noexcept {
+    std::copy(volumes.begin(), volumes.end(), m_volumes.begin());
+}
+
+Result<void> PlainField::enter(const FieldSettings&, int volume, glm::ivec3 cells) {
+    const kernels::Volume& v = m_volumes[std::size_t(volume)];
+    FieldSnapshot fresh = emptySnapshot(m_probes.desc, {0, 1});
+    fresh.states[0].backfaceShare = 1.0f;
+    for (int slot = v.firstSlot; slot < v.firstSlot + kernels::volumeProbes(v); ++slot) {
+        fresh.slots.first = slot;
+        if (kernels::hasEntered(v, kernels::probeCell(v, slot), cells)) write(fresh).value();
+    }
+    return {};
 }
 
 Result<FieldSnapshot> PlainField::read(SlotRange slots) const {

@@ -117,6 +117,10 @@ public:
     /// level). Includes barriers before and after. Errors: outOfMemory.
     Result<void> recordClear(VkCommandBuffer commands);
 
+    /// Moves a volume's window, as Field::scroll. Includes barriers before and after. Errors: invalidArgument (no such
+    /// volume, too far), outOfMemory (the first call compiles the pass).
+    Result<void> recordScroll(VkCommandBuffer commands, int volume, glm::ivec3 cells);
+
     /// One update with the library's rays: trace, shade with the lighting and last frame's field, blend. Begins and
     /// ends with a full barrier, so reads of the volume in the same queue need none. Errors: outOfMemory (the first
     /// call allocates the ray data buffer).

@@ -118,6 +118,15 @@ struct BlendPush {
     int looks;            // at emitters, a probe; 0: none
     uvec2 steps;          // GpuProbeStep[slot]: each with its own hysteresis; 0: all with the above
     uvec2 changes;        // out, where there are steps: TexelChange[block of texels][task]
+    uvec2 filters;        // PackedProbeFilter[slot]
+};
+
+// What probes have that entered a volume (enter_volume.comp).
+struct EnterPush {
+    uvec2 sides;    // ProbeSides[slot]
+    uvec2 filters;  // PackedProbeFilter[slot]
+    int volume;
+    ivec3 cells;  // by which it was scrolled
 };
 
 // Paths into the open (find_solid_probes.comp).
@@ -223,8 +232,8 @@ KERNELS_END
 #ifdef __cplusplus
 namespace probegi::kernels {
 static_assert(offsetof(SceneConstants, tracer) == 140 && sizeof(SceneConstants) == 204 && sizeof(LightingBlock) == 40);
-static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(BlendPush) == 104 &&
-              sizeof(TracePush) == 76);
+static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(BlendPush) == 112 &&
+              sizeof(EnterPush) == 32 && sizeof(TracePush) == 76);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 96);
 static_assert(sizeof(GpuTask) == 20 && sizeof(TasksPush) == 24 && sizeof(FilterPush) == 76 &&
               sizeof(GpuProbeStep) == 80);

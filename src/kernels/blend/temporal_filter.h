@@ -337,11 +337,21 @@ KERNEL_FN ProbeFilter unpackFilter(PackedProbeFilter packed) {
     return f;
 }
 
+KERNEL_FN PackedProbeFilter newFilter() {
+    PackedProbeFilter packed;
+    for (int i = 0; i < 8; ++i) packed.words[i] = 0u;
+    return packed;
+}
+
+// Whether a probe has had no update yet: it keeps nothing of what it holds.
+KERNEL_FN bool isNew(PackedProbeFilter packed) {
+    return packed.words[5] == 0u;
+}
+
 // A filter after the updates of an average: the average's window, and unknown light of the fixed rays.
 KERNEL_FN PackedProbeFilter forgottenFilter(float window) {
     const float w = clamp(window, 1.0f, kLongestWindow);
-    PackedProbeFilter packed;
-    for (int i = 0; i < 8; ++i) packed.words[i] = 0u;
+    PackedProbeFilter packed = newFilter();
     packed.words[5] = packWindows(w, w);
     return packed;
 }

@@ -38,6 +38,16 @@ struct ProbeSides {
     uint trust;      // in the path: grows with every update that finds one, falls with every other, 0..kMostTrust
 };
 
+KERNEL_FN ProbeSides noSides() {
+    ProbeSides sides;
+    sides.backs = 0.0f;
+    sides.fronts = 0.0f;
+    sides.steps = 0u;
+    sides.nextSteps = 0u;
+    sides.trust = 0u;
+    return sides;
+}
+
 KERNEL_CONST uint kNoWayOut = 255u;
 // Longest valid path into the open. If a path is cut, probes beyond the cut lose theirs within this many updates.
 KERNEL_CONST uint kLongestWay = 16u;

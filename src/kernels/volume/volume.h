@@ -44,6 +44,13 @@ KERNEL_FN ivec3 probeCell(Volume v, int slot) {
                  ringPlace(place.z, v.counts.z - v.phase.z, v.counts.z));
 }
 
+// A probe's number by its cell: the seed of its dither and samples, which depend on no other volume, nor on where a
+// scrolled window came from.
+KERNEL_FN int probeNumber(Volume v, int slot) {
+    const ivec3 cell = probeCell(v, slot);
+    return cell.x + v.counts.x * (cell.y + v.counts.y * cell.z);
+}
+
 KERNEL_FN int volumeProbes(Volume v) {
     return v.counts.x * v.counts.y * v.counts.z;
 }
@@ -51,6 +58,13 @@ KERNEL_FN int volumeProbes(Volume v) {
 KERNEL_FN bool isInVolume(Volume v, ivec3 cell) {
     return cell.x >= 0 && cell.y >= 0 && cell.z >= 0 && cell.x < v.counts.x && cell.y < v.counts.y &&
            cell.z < v.counts.z;
+}
+
+// Scrolling (section 7.3): the window moves by whole cells. Probes that stay inside keep their slots and all they hold;
+// the slots of those that leave go to those that enter on the other side. Whether a cell's probe entered with the last
+// step, by `cells`: where the window was before, there was no such cell.
+KERNEL_FN bool hasEntered(Volume v, ivec3 cell, ivec3 cells) {
+    return !isInVolume(v, cell + cells);
 }
 
 // Where the probe of a cell stands, in the volume's frame.

@@ -192,6 +192,18 @@ void FieldPasses::recordClear(const Recorder& recorder, const FieldSettings& set
     recorder.orderAll();
 }
 
+void FieldPasses::recordEnter(const Recorder& recorder, const FieldSettings& settings, int volume, glm::ivec3 cells) {
+    m_device.impl().pipelines->get("enter_volume");  // may fail: before anything is recorded
+    recordSettings(recorder, settings);
+    recorder.bindVolume(set());
+    recorder.push(kernels::EnterPush{.sides = packAddress(m_sides.address()),
+                                     .filters = packAddress(m_filters.address()),
+                                     .volume = volume,
+                                     .cells = cells});
+    recorder.dispatchOver("enter_volume", std::size_t(kernels::volumeProbes(m_volumes[std::size_t(volume)])));
+    recorder.orderAll();
+}
+
 void FieldPasses::recordSettings(const Recorder& recorder, const FieldSettings& settings) {
     if (settings == m_recordedSettings) return;
     m_recordedSettings = settings;
@@ -294,7 +306,8 @@ void FieldPasses::recordBlend(const Recorder& recorder, const UpdateFrame& frame
                                      .emitterLights = packAddress(data.emitterLights),
                                      .looks = data.looks,
                                      .steps = frame.windows ? packAddress(m_steps.address()) : kernels::uvec2(0),
-                                     .changes = packAddress(m_changes.address())});
+                                     .changes = packAddress(m_changes.address()),
+                                     .filters = packAddress(m_filters.address())});
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "blend irradiance");
         recorder.dispatchIndirect("blend_irradiance", m_tasks, offsetof(kernels::GpuTaskCounts, irradiance),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "field/layout.h"
@@ -25,6 +26,13 @@ public:
     /// The desc must be valid. Failure: unsupported (more probes than the device's images hold).
     FieldPasses(const Device& device, const FieldDesc& desc);
 
+    /// The volumes stand elsewhere from now on: slots keep what they hold.
+    void place(std::span<const kernels::Volume> volumes) noexcept {
+        std::copy(volumes.begin(), volumes.end(), m_volumes.begin());
+        forgetRecorded();
+    }
+    /// After place(): FieldBackend::enter().
+    void recordEnter(const Recorder& recorder, const FieldSettings& settings, int volume, glm::ivec3 cells);
     /// Clears all probes. From here on, `settings` are what shaders that read the field see.
     void recordClear(const Recorder& recorder, const FieldSettings& settings);
     /// Traces and shades the rays of the tasks, then blends the ray data.

@@ -54,6 +54,15 @@ Result<void> GpuField::recordClear(VkCommandBuffer commands) {
     });
 }
 
+Result<void> GpuField::recordScroll(VkCommandBuffer commands, int volume, glm::ivec3 cells) {
+    if (auto moved = m_impl->books().scroll(volume, cells); !moved) return moved;
+    return m_impl->recorded("recording the scrolling of a volume", [&] {
+        m_impl->passes.place(m_impl->books().volumes);
+        m_impl->passes.recordEnter({m_impl->passes.device().impl(), commands}, m_impl->control.settings(), volume,
+                                   cells);
+    });
+}
+
 Result<void> GpuField::recordUpdate(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,
                                     Profiler* profiler) {
     return m_impl->recorded("recording an update", [&] {

@@ -134,9 +134,10 @@ Result<UpdateTimes> VulkanField::update(const UpdateFrame& frame, const Tracer& 
         TraceTimes sums;
         const EmitterSearch emitters = emitterSearch(desc, tracer, frame.raySeed);
         m_emitterLights.resize(frame.tasks.size() * std::size_t(emitters.looks));
-        orThrow(traceProbes(m_context, desc, frame.tasks, {frame.directions, frame.fixedDirections}, tracer, lighting,
-                            bounces, emitters, {m_rayData, m_fixedRays}, sums));
-        if (emitters) orThrow(lookAtEmitters(m_context, desc, frame.tasks, emitters, tracer, m_emitterLights, sums));
+        orThrow(traceProbes(m_context, frame.volumes, frame.tasks, {frame.directions, frame.fixedDirections}, tracer,
+                            lighting, bounces, emitters, {m_rayData, m_fixedRays}, sums));
+        if (emitters)
+            orThrow(lookAtEmitters(m_context, frame.volumes, frame.tasks, emitters, tracer, m_emitterLights, sums));
         const double traced = millisecondsSince(start);
         const double sum = std::max(1.0, double(sums.traceNs + sums.shadeNs));
         const std::lock_guard lock(m_mutex);
@@ -184,6 +185,20 @@ FieldMirror& VulkanField::mirror() const {
 Result<ProbeLight> VulkanField::light() const {
     const std::lock_guard lock(m_mutex);
     return guarded("reading probes", [&] { return mirror().light(); });
+}
+
+void VulkanField::place(std::span<const kernels::Volume> volumes) noexcept {
+    const std::lock_guard lock(m_mutex);
+    m_passes.place(volumes);
+}
+
+Result<void> VulkanField::enter(const FieldSettings& settings, int volume, glm::ivec3 cells) {
+    const std::lock_guard lock(m_mutex);
+    m_mirror.reset();
+    return attempted("scrolling a volume", [&] {
+        submitAndWait(m_device,
+                      [&](const Recorder& recorder) { m_passes.recordEnter(recorder, settings, volume, cells); });
+    });
 }
 
 Result<FieldSnapshot> VulkanField::read(SlotRange slots) const {

@@ -69,10 +69,10 @@ void store(GpuTask task, int texel, vec3 newMean, inout TexelChange change) {
     const int size = probegiField.irradianceTexels;
     const ivec3 place = poolTile(probegiField.tiles, int(task.slot));
     const ivec2 tile = tileOrigin(place, size);
-    const uint number = task.slot - uint(probegiField.volumes[task.volume].firstSlot);
+    const uint number = uint(probeNumber(probegiField.volumes[task.volume], int(task.slot)));
     const ivec2 at = ivec2(texel % size, texel / size);
     const vec3 old = imageLoad(irradianceImage, ivec3(tile + at, place.z)).rgb;
-    float kept = push.irradianceHysteresis;
+    float kept = isNew(ProbeFilters(push.filters).at[task.slot]) ? 0.0 : push.irradianceHysteresis;
     if (push.steps != uvec2(0u)) {
         kept = ProbeSteps(push.steps).at[task.slot].irradianceKept;
         addTexelChange(change, old, newMean);
@@ -104,8 +104,8 @@ vec3 fromEmitters(int task, int texel) {
 void storeSides(int local, uint slot) {
     SidesSeen seen = SidesSeen(0, 0, 0);
     for (int i = 0; i < kRays; ++i) seen = addSides(seen, counts[local / 4][i][local % 4]);
-    const float kept =
-        push.steps == uvec2(0u) ? push.visibilityHysteresis : ProbeSteps(push.steps).at[slot].visibilityKept;
+    float kept = isNew(ProbeFilters(push.filters).at[slot]) ? 0.0 : push.visibilityHysteresis;
+    if (push.steps != uvec2(0u)) kept = ProbeSteps(push.steps).at[slot].visibilityKept;
     const ProbeSides sides = rememberSides(Sides(push.sides).at[slot], seen, push.rays, kept);
     Sides(push.sides).at[slot] = sides;
     probegiStates.backfaceShare[slot] =

@@ -30,11 +30,11 @@ void store(GpuTask task, int texel, float evidence, vec2 newMoments) {
     const int size = probegiField.visibilityTexels;
     const ivec3 place = poolTile(probegiField.tiles, int(task.slot));
     const ivec2 tile = tileOrigin(place, size);
-    const uint number = task.slot - uint(probegiField.volumes[task.volume].firstSlot);
+    const uint number = uint(probeNumber(probegiField.volumes[task.volume], int(task.slot)));
     const ivec2 at = ivec2(texel % size, texel / size);
     const vec2 old = imageLoad(visibilityImage, ivec3(tile + at, place.z)).rg;
-    const float kept =
-        push.steps == uvec2(0u) ? push.visibilityHysteresis : ProbeSteps(push.steps).at[task.slot].visibilityKept;
+    float kept = isNew(ProbeFilters(push.filters).at[task.slot]) ? 0.0 : push.visibilityHysteresis;
+    if (push.steps != uvec2(0u)) kept = ProbeSteps(push.steps).at[task.slot].visibilityKept;
     const vec4 stored =
         vec4(unpackMoments(blendVisibilityTexel(packMoments(old), newMoments, keptMoments(kept, evidence),
                                                 push.ditherSeed, number * uint(size * size) + uint(texel))),

@@ -42,7 +42,7 @@ vec3 arriving(vec3 probe, EmitterAim aim, int material) {
 
 EmitterLight look(GpuTask task, uint index) {
     SceneEmitters emitters = SceneEmitters(PROBEGI_SCENE.emitters);
-    const uint number = task.slot - uint(probegiField.volumes[task.volume].firstSlot);
+    const uint number = uint(probeNumber(probegiField.volumes[task.volume], int(task.slot)));
     const uint seed = emitterSeed(push.emitterSeed, number);
     const uint choice = emitterChoice(seed, index, uint(push.looks));
     const int chosen = chosenEmitter(emitters, choice);

@@ -26,7 +26,7 @@ void main() {
         ProbeFilters(push.filters).at[probe] = forgottenFilter(push.longestWindow);
         return;
     }
-    const uint number = probe - uint(probegiField.volumes[task.volume].firstSlot);
+    const uint number = uint(probeNumber(probegiField.volumes[task.volume], int(probe)));
     ProbeFilter probeFilter = unpackFilter(ProbeFilters(push.filters).at[probe]);
     const float lag = ProbeSteps(push.steps).at[probe].lagShare;
     probeFilter.noise =

@@ -11,6 +11,8 @@ void evaluate(INOUT(Lane) lane) {
     giveBits(lane, uint(slot));
     giveBits(lane, uint(ringPlace(cell.x, v.phase.x, v.counts.x)));
     giveCell(lane, probeCell(v, slot));
+    giveBits(lane, uint(probeNumber(v, slot)));
+    giveBits(lane, hasEntered(v, cell, ivec3(2, 0, -1)) ? 1u : 0u);
     giveBits(lane, uint(volumeProbes(v)));
     giveBits(lane, isInVolume(v, cell + ivec3(0, 1, 0)) ? 1u : 0u);
     giveBits(lane, isInVolume(v, cell - ivec3(1, 0, 0)) ? 1u : 0u);
