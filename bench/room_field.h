@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "cpu/blend_pass.h"
-#include "cpu/probe_query.h"
+#include "cpu/field_view.h"
 #include "field/control_impl.h"
 
 namespace probegi::bench {

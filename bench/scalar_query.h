@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cpu/probe_query.h"
+#include "cpu/field_view.h"
 
 namespace probegi::bench {
 

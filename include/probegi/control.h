@@ -8,6 +8,7 @@
 
 #include "probegi/export.h"
 #include "probegi/result.h"
+#include "probegi/shared/field_data.h"
 #include "probegi/volume.h"
 
 namespace probegi {
@@ -76,13 +77,6 @@ enum class FieldEvent : std::uint8_t {
     smallLightChange,   ///< irradiance hysteresis -15 % for 4 frames
     largeLightChange,   ///< irradiance hysteresis -50 % for 10 frames
     largeObjectChange,  ///< irradiance hysteresis -50 % for 10 frames, visibility hysteresis -50 % for 7 frames
-};
-
-/// One probe that an update is about.
-struct ProbeTask {
-    glm::vec3 origin{0.0f};    ///< where its rays begin, metres
-    std::uint32_t slot = 0;    ///< of the probe, counted over all volumes
-    std::uint32_t volume = 0;  ///< that it belongs to
 };
 
 /// The books of a field, the same on every backend: what the coming update is about (probes, rays), the settings, and

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "cpu/blend_pass.h"
+#include "cpu/field_view.h"
 #include "cpu/filter_passes.h"
-#include "cpu/probe_query.h"
 #include "field/field_backend.h"
 
 namespace probegi {

@@ -6,8 +6,8 @@
 #define PROBEGI_CPU_FOOTPRINT_INL_H
 #endif
 
+#include "cpu/field_view.h"
 #include "cpu/lanes-inl.h"
-#include "cpu/probe_query.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace probegi::HWY_NAMESPACE {

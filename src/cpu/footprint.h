@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <glm/common.hpp>
 
-#include "cpu/probe_query.h"
+#include "cpu/field_view.h"
 #include "kernels/probe/octahedral.h"
 #include "kernels/probe/probe_texel.h"
 

@@ -7,10 +7,10 @@
 #define PROBEGI_CPU_LANE_ACCESS_INL_H
 #endif
 
+#include "cpu/field_view.h"
 #include "cpu/footprint-inl.h"
 #include "cpu/footprint.h"
 #include "cpu/lanes-inl.h"
-#include "cpu/probe_query.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace probegi::HWY_NAMESPACE {

@@ -3,7 +3,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-#include "cpu/probe_query.h"
+#include "cpu/field_view.h"
 
 namespace probegi {
 

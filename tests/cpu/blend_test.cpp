@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "cpu/probe_query.h"
+#include "cpu/field_view.h"
 #include "field/control_impl.h"
+#include "field/layout.h"
 #include "kernels/blend/probe_blend.h"
 #include "kernels/probe/octahedral_texel.h"
 #include "kernels/probe/storage.h"

@@ -6,6 +6,7 @@
 
 #include "cpu/blend_pass.h"
 #include "field/control_impl.h"
+#include "field/layout.h"
 #include "kernels/probe/octahedral_texel.h"
 #include "kernels/probe/storage.h"
 #include "kernels/random.h"

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "cpu/probe_query.h"
+#include "cpu/field_view.h"
 #include "field/layout.h"
 #include "kernels/probe/storage.h"
 #include "kernels/volume/volume_choice.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cpu/probe_query.h"
+#include "cpu/field_view.h"
 #include "field/control_impl.h"
 #include "support/field_setup.h"
 

@@ -1,6 +1,7 @@
 // The bookkeeping of Field::converge against rooms where every update is a closed form: the new light is that of the
 // lamps plus the albedo times the previous light.
 #include "field/convergence.h"
+#include "field/layout.h"
 #include "support/field_setup.h"
 
 #include <gtest/gtest.h>

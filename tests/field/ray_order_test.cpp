@@ -1,4 +1,5 @@
 #include "field/ray_order.h"
+#include "field/layout.h"
 
 #include <gtest/gtest.h>
 

@@ -65,17 +65,13 @@ check_layers() {
     done < <(folder_includes /dev/null apps/**/*.{h,cpp})
 }
 
-# No two files of src/ have the same name, so that a name identifies a file. Exceptions:
-namesakes="probe_query.h"
+# No two files of src/ have the same name, so that a name identifies a file.
 check_names() {
     local name
     while read -r name; do
-        [[ $name == CMakeLists.txt || " $namesakes " == *" $name "* ]] ||
+        [[ $name == CMakeLists.txt ]] ||
             complain "src has more than one $name: $(find src -name "$name" | sort | tr '\n' ' ')"
     done < <(find src -type f -printf '%f\n' 2>/dev/null | sort | uniq -d)
-    for name in $namesakes; do
-        (($(find src -name "$name" 2>/dev/null | wc -l) != 1)) || complain "$name has no namesake any more: check.sh need not allow it"
-    done
 }
 
 check_public_headers() {

@@ -6,6 +6,13 @@
 
 PROBEGI_SHARED_BEGIN
 
+/// One probe that an update is about.
+struct ProbeTask {
+    PROBEGI_VEC3 origin PROBEGI_DEFAULT(PROBEGI_VEC3(0.0f));  ///< where its rays begin, metres
+    PROBEGI_UINT slot PROBEGI_DEFAULT(0);                     ///< of the probe, counted over all volumes
+    PROBEGI_UINT volume PROBEGI_DEFAULT(0);                   ///< that it belongs to
+};
+
 /// The result of one ray of one probe. This is the seam for engines with a ray tracer of their own.
 /// Where the ray met the back of a surface, as its winding has it, `distance` is negative. A single-sided surface is
 /// solid wall from there: a backface, whose radiance does not count. What a surface with two sides sends from its back
@@ -35,6 +42,7 @@ struct FieldQuery {
 };
 
 #ifdef __cplusplus
+static_assert(sizeof(ProbeTask) == 20 && offsetof(ProbeTask, slot) == 12 && offsetof(ProbeTask, volume) == 16);
 static_assert(sizeof(RayDatum) == 16 && offsetof(RayDatum, distance) == 12);
 static_assert(sizeof(FixedRayDatum) == 12 && offsetof(FixedRayDatum, bounced) == 4 &&
               offsetof(FixedRayDatum, distance) == 8);

@@ -42,16 +42,9 @@ struct GpuTexelRays {
     float evidence;  // visibilityEvidence(); 1 with the paper's rules
 };
 
-// probegi::ProbeTask: one probe of an update.
-struct GpuTask {
-    vec3 origin;  // of its rays, metres
-    uint slot;
-    uint volume;
-};
-
 // The list of all probes (all_tasks.comp), and the work that a list is (count_tasks.comp).
 struct TasksPush {
-    uvec2 tasks;            // GpuTaskCounts, GpuTask[]
+    uvec2 tasks;            // GpuTaskCounts, ProbeTask[]
     uint count;             // all_tasks: of probes
     uint rays;              // a task, fixed ones included
     uint looks;             // at emitters, a task
@@ -84,7 +77,7 @@ struct GpuProbeStep {
 
 // The passes around a blend with windows (probe_lag.comp, probe_windows.comp, probe_filter.comp).
 struct FilterPush {
-    uvec2 tasks;       // GpuTaskCounts, GpuTask[]
+    uvec2 tasks;       // GpuTaskCounts, ProbeTask[]
     uvec2 steps;       // GpuProbeStep[slot]; no lag where a probe is no task
     uvec2 filters;     // PackedProbeFilter[slot]
     uvec2 changes;     // TexelChange[block of texels][task]
@@ -101,7 +94,7 @@ struct FilterPush {
 
 // Both blends (blend_irradiance.comp, blend_visibility.comp).
 struct BlendPush {
-    uvec2 tasks;              // GpuTaskCounts, GpuTask[]
+    uvec2 tasks;              // GpuTaskCounts, ProbeTask[]
     uvec2 rayData;            // RayDatum[task][ray]
     uvec2 sides;              // ProbeSides[slot]
     uvec2 irradianceWeights;  // as WeightsPush
@@ -131,13 +124,13 @@ struct EnterPush {
 
 // Paths into the open (find_solid_probes.comp).
 struct SolidPush {
-    uvec2 tasks;  // GpuTaskCounts, GpuTask[]
+    uvec2 tasks;  // GpuTaskCounts, ProbeTask[]
     uvec2 sides;  // ProbeSides[slot]
 };
 
 // Probe rays (trace_probes.comp), their shading (shade_probes.comp), and emitter samples (look_at_emitters.comp).
 struct TracePush {
-    uvec2 tasks;          // GpuTaskCounts, GpuTask[]
+    uvec2 tasks;          // GpuTaskCounts, ProbeTask[]
     uvec2 directions;     // vec3[rays]
     uvec2 hits;           // Hit[ray][task]
     uvec2 rayData;        // RayDatum[task][ray]
@@ -235,7 +228,7 @@ static_assert(offsetof(SceneConstants, tracer) == 140 && sizeof(SceneConstants) 
 static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(BlendPush) == 112 &&
               sizeof(EnterPush) == 32 && sizeof(TracePush) == 76);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 96);
-static_assert(sizeof(GpuTask) == 20 && sizeof(TasksPush) == 24 && sizeof(FilterPush) == 76 &&
+static_assert(sizeof(TasksPush) == 24 && sizeof(FilterPush) == 76 &&
               sizeof(GpuProbeStep) == 80);
 static_assert(sizeof(ToneMapPush) == 36 && sizeof(GpuSurface) == 76 && sizeof(GpuSample) == 100);
 }  // namespace probegi::kernels

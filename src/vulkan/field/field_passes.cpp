@@ -64,7 +64,7 @@ FieldPasses::FieldPasses(const Device& device, const FieldDesc& desc)
       m_states(device.impl(), "probe states", sizeof(std::uint32_t) + m_layout.probes * sizeof(float),
                vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst |
                    vk::BufferUsageFlagBits::eTransferSrc),
-      m_tasks(device.impl(), "tasks", sizeof(kernels::GpuTaskCounts) + m_layout.probes * sizeof(kernels::GpuTask),
+      m_tasks(device.impl(), "tasks", sizeof(kernels::GpuTaskCounts) + m_layout.probes * sizeof(ProbeTask),
               kAddressed | vk::BufferUsageFlagBits::eIndirectBuffer),
       m_sides(device.impl(), "probe sides", m_layout.probes * sizeof(kernels::ProbeSides),
               kAddressed | vk::BufferUsageFlagBits::eTransferSrc),

@@ -91,7 +91,7 @@ private:
     Image m_irradiance, m_visibility;
     Buffer m_constants;                     // FieldConstants
     Buffer m_states;                        // count of fallback queries, then each probe's share of backfaces
-    Buffer m_tasks;                         // GpuTaskCounts, GpuTask[task]
+    Buffer m_tasks;                         // GpuTaskCounts, ProbeTask[task]
     Buffer m_sides;                         // ProbeSides per probe
     Buffer m_filters;                       // PackedProbeFilter per probe
     Buffer m_steps, m_changes;              // passed between the passes of an update

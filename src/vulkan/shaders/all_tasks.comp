@@ -11,6 +11,6 @@ void main() {
     if (slot >= push.count) return;
     const int number = probegiVolumeOf(int(slot));
     const Volume volume = probegiField.volumes[number];
-    Tasks(push.tasks).at[slot] = GpuTask(probePosition(volume, probeCell(volume, int(slot))), slot, uint(number));
+    Tasks(push.tasks).at[slot] = ProbeTask(probePosition(volume, probeCell(volume, int(slot))), slot, uint(number));
     if (slot == 0u) Tasks(push.tasks).counts.tasks = push.count;
 }

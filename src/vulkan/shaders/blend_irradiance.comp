@@ -65,7 +65,7 @@ void loadWeights(int firstTexel, int texels, int firstRay) {
 }
 
 // The dither is seeded by the probe's number in its volume, so that it does not depend on other volumes.
-void store(GpuTask task, int texel, vec3 newMean, inout TexelChange change) {
+void store(ProbeTask task, int texel, vec3 newMean, inout TexelChange change) {
     const int size = probegiField.irradianceTexels;
     const ivec3 place = poolTile(probegiField.tiles, int(task.slot));
     const ivec2 tile = tileOrigin(place, size);

@@ -26,7 +26,7 @@ const int kRays = 256;  // in shared memory at a time
 
 shared vec4 distances[kRays];  // as fractions of the farthest; a component per probe
 
-void store(GpuTask task, int texel, float evidence, vec2 newMoments) {
+void store(ProbeTask task, int texel, float evidence, vec2 newMoments) {
     const int size = probegiField.visibilityTexels;
     const ivec3 place = poolTile(probegiField.tiles, int(task.slot));
     const ivec2 tile = tileOrigin(place, size);

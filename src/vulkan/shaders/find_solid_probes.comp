@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push {
 };
 
 // Length of the shortest path into the open through one of the 26 neighbours.
-uint stepsByNeighbours(GpuTask task) {
+uint stepsByNeighbours(ProbeTask task) {
     const Volume volume = probegiField.volumes[task.volume];
     const int probe = int(task.slot);
     const ivec3 cell = probeCell(volume, probe);
@@ -40,7 +40,7 @@ uint stepsByNeighbours(GpuTask task) {
 void main() {
     const uint index = globalIndex();
     if (index >= Tasks(push.tasks).counts.tasks) return;
-    const GpuTask task = Tasks(push.tasks).at[index];
+    const ProbeTask task = Tasks(push.tasks).at[index];
     const uint probe = task.slot;
     const ProbeSides own = Sides(push.sides).at[probe];
     const ProbeSides found = foundWay(own, looksForWay(own) ? stepsByNeighbours(task) : kNoWayOut);

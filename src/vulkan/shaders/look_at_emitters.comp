@@ -40,7 +40,7 @@ vec3 arriving(vec3 probe, EmitterAim aim, int material) {
     return vec3(safeRadiance(surface.emission.x), safeRadiance(surface.emission.y), safeRadiance(surface.emission.z));
 }
 
-EmitterLight look(GpuTask task, uint index) {
+EmitterLight look(ProbeTask task, uint index) {
     SceneEmitters emitters = SceneEmitters(PROBEGI_SCENE.emitters);
     const uint number = uint(probeNumber(probegiField.volumes[task.volume], int(task.slot)));
     const uint seed = emitterSeed(push.emitterSeed, number);

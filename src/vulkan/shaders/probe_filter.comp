@@ -20,7 +20,7 @@ void main() {
     const uint index = globalIndex();
     const uint tasks = Tasks(push.tasks).counts.tasks;
     if (index >= tasks) return;
-    const GpuTask task = Tasks(push.tasks).at[index];
+    const ProbeTask task = Tasks(push.tasks).at[index];
     const uint probe = task.slot;
     if (push.forget != 0) {
         ProbeFilters(push.filters).at[probe] = forgottenFilter(push.longestWindow);

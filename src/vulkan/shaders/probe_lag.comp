@@ -26,7 +26,7 @@ ProbeSight sightOfTask(uint task, float farthest) {
 void main() {
     const uint index = globalIndex();
     if (index >= Tasks(push.tasks).counts.tasks) return;
-    const GpuTask task = Tasks(push.tasks).at[index];
+    const ProbeTask task = Tasks(push.tasks).at[index];
     const uint probe = task.slot;
     const ProbeSight sight = sightOfTask(index, probegiField.volumes[task.volume].maxDistance);
     ProbeSteps(push.steps).at[probe].sight = sight;

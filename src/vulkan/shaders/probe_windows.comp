@@ -29,7 +29,7 @@ LagAround lagAround(Volume volume, ivec3 at) {
 void main() {
     const uint index = globalIndex();
     if (index >= Tasks(push.tasks).counts.tasks) return;
-    const GpuTask task = Tasks(push.tasks).at[index];
+    const ProbeTask task = Tasks(push.tasks).at[index];
     const Volume volume = probegiField.volumes[task.volume];
     const uint probe = task.slot;
     ProbeFilter probeFilter = unpackFilter(ProbeFilters(push.filters).at[probe]);

@@ -5,10 +5,11 @@
 #include "common.glsl"
 
 #include "kernels/abi/gpu_passes.h"
+#include "probegi/shared/field_data.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Tasks {
     GpuTaskCounts counts;
-    GpuTask at[];
+    ProbeTask at[];
 };
 
 #endif

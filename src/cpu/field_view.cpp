@@ -1,4 +1,4 @@
-#include "cpu/probe_query.h"
+#include "cpu/field_view.h"
 
 #include <algorithm>
 #include <array>
@@ -85,14 +85,6 @@ void queryIrradiance(const FieldView& view, std::span<const FieldQuery> queries,
         else
             answerInSeveral(view, queries.subspan(begin, count), out.subspan(begin, count));
     }
-}
-
-glm::vec3 probeIrradiance(const FieldView& view, int slot, glm::vec3 normal) {
-    const FieldAccess access(view);
-    const glm::vec3 stored = storedIrradiance(access, slot, irradiancePoint(access, normal));
-    return glm::vec3(kernels::decodeIrradiance(stored.x), kernels::decodeIrradiance(stored.y),
-                     kernels::decodeIrradiance(stored.z)) *
-           kernels::kPi;
 }
 
 glm::vec2 probeMoments(const FieldView& view, int slot, glm::vec3 direction) {

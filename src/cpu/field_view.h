@@ -38,9 +38,6 @@ struct FieldView {
 /// answers, else the nearest.
 void queryIrradiance(const FieldView& view, std::span<const FieldQuery> queries, std::span<glm::vec3> out);
 
-/// E that the probe of a slot stores for a normal, bilinear in its map.
-glm::vec3 probeIrradiance(const FieldView& view, int slot, glm::vec3 normal);
-
 /// Mean and mean square of distance / maxDistance that the probe of a slot stores in a direction of the world.
 glm::vec2 probeMoments(const FieldView& view, int slot, glm::vec3 direction);
 
