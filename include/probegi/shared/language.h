@@ -15,6 +15,7 @@
 #define PROBEGI_VEC2 glm::vec2
 #define PROBEGI_VEC3 glm::vec3
 #define PROBEGI_INT std::int32_t
+#define PROBEGI_CONST inline constexpr
 #define PROBEGI_DEFAULT(value) = value
 
 #else  // GLSL
@@ -24,6 +25,7 @@
 #define PROBEGI_VEC2 vec2
 #define PROBEGI_VEC3 vec3
 #define PROBEGI_INT int
+#define PROBEGI_CONST const
 #define PROBEGI_DEFAULT(value)
 
 #endif
