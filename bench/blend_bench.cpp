@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 
 #include "cpu/matrix_product.h"
+#include "field/layout.h"
 #include "kernels/blend/probe_blend.h"
 #include "kernels/probe/octahedral_texel.h"
 #include "room_field.h"

@@ -37,5 +37,11 @@ TEST(Pinhole, spreadIsThatOfARayAcrossAPixel) {
     EXPECT_NEAR(pinholeSpread(kCamera, 4), 2.0f / 400, 1e-6f);
 }
 
+TEST(Pinhole, subSamplesAreRowByRowWithinThePixel) {
+    EXPECT_EQ(subSampleDirection(kCamera, 7, 5, 0, 1), pinholeDirection(kCamera, 7.5f, 5.5f));
+    EXPECT_EQ(subSampleDirection(kCamera, 7, 5, 1, 2), pinholeDirection(kCamera, 7.75f, 5.25f));
+    EXPECT_EQ(subSampleDirection(kCamera, 7, 5, 2, 2), pinholeDirection(kCamera, 7.25f, 5.75f));
+}
+
 }  // namespace
 }  // namespace probegi::kernels

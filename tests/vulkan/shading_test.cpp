@@ -10,13 +10,11 @@
 namespace probegi::test {
 namespace {
 
-using vulkan::ShadingSample;
-
 /// Surfaces at the pixels' centres by the CPU's tracer, as an engine would rasterise them.
-std::vector<ShadingSample> rasterised(const Tracer& tracer, const PictureDesc& desc) {
+std::vector<ScreenSample> rasterised(const Tracer& tracer, const PictureDesc& desc) {
     const kernels::PinholeCamera camera = kernels::makePinhole(
         desc.camera.position, desc.camera.forward, desc.camera.up, desc.camera.yfov, desc.width, desc.height);
-    std::vector<ShadingSample> samples;
+    std::vector<ScreenSample> samples;
     for (int y = 0; y < desc.height; ++y)
         for (int x = 0; x < desc.width; ++x) {
             const Ray ray{camera.origin, 0.0f, kernels::pinholeDirection(camera, float(x) + 0.5f, float(y) + 0.5f)};
@@ -24,10 +22,10 @@ std::vector<ShadingSample> rasterised(const Tracer& tracer, const PictureDesc& d
             Surface s;
             tracer.closestHits({&ray, 1}, {&hit, 1}).value();
             tracer.surfaces({&ray, 1}, {&hit, 1}, {&s, 1}).value();
-            ShadingSample sample;
+            ScreenSample sample;
             sample.viewDirection = ray.direction;
             if (hit.valid()) {
-                sample.kind = s.backface ? ShadingSample::backface : ShadingSample::surface;
+                sample.kind = s.backface ? kSampleBackface : kSampleSurface;
                 sample.position = s.position;
                 sample.geometricNormal = s.geometricNormal;
                 sample.shadingNormal = s.shadingNormal;
@@ -54,7 +52,7 @@ TEST(VulkanShading, samplesOfAnEngineLookLikeTheCpusPicture) {
     Field cpuField = *Field::create(log, world.desc, world.desc);
     ASSERT_TRUE(cpuField.update(rays));
     const Picture picture = renderPicture(log, *cpuTracer, world.lighting, &cpuField, desc)->picture;
-    const std::vector<ShadingSample> samples = rasterised(*cpuTracer, desc);
+    const std::vector<ScreenSample> samples = rasterised(*cpuTracer, desc);
 
     Engine engine;
     const vulkan::Device device = *vulkan::Device::adopt(log, engine.adoptDesc());
@@ -73,7 +71,7 @@ TEST(VulkanShading, samplesOfAnEngineLookLikeTheCpusPicture) {
         EXPECT_TRUE(vulkan::recordShading(commands, scene, lighting, &volume, withField.address, count));
         EXPECT_TRUE(vulkan::recordShading(commands, scene, lighting, nullptr, without.address, count));
     });
-    const auto got = withField.as<ShadingSample>(), unlit = without.as<ShadingSample>();
+    const auto got = withField.as<ScreenSample>(), unlit = without.as<ScreenSample>();
     float brightest = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const glm::vec3 direct = picture.direct.pixels[i], e = picture.irradiance.pixels[i];

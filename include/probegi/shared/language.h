@@ -16,6 +16,7 @@
 #define PROBEGI_VEC3 glm::vec3
 #define PROBEGI_INT std::int32_t
 #define PROBEGI_UINT std::uint32_t
+#define PROBEGI_CONST inline constexpr
 #define PROBEGI_DEFAULT(value) = value
 
 #else  // GLSL
@@ -26,6 +27,7 @@
 #define PROBEGI_VEC3 vec3
 #define PROBEGI_INT int
 #define PROBEGI_UINT uint
+#define PROBEGI_CONST const
 #define PROBEGI_DEFAULT(value)
 
 #endif

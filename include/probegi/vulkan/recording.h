@@ -4,6 +4,7 @@
 
 #include "probegi/field.h"
 #include "probegi/image.h"
+#include "probegi/shared/screen_sample.h"
 #include "probegi/vulkan/device.h"
 
 /// For engines: passes that are recorded into the engine's own command buffers.
@@ -160,25 +161,7 @@ private:
     std::unique_ptr<Impl> m_impl;
 };
 
-/// One entry of a G-buffer in a storage buffer, and recordShading()'s results. 100 bytes, no padding.
-struct ShadingSample {
-    /// What is visible there; only surfaces are shaded.
-    enum Kind : std::int32_t { sky = 0, surface = 1, backface = 2 };
-
-    glm::vec3 position{0.0f};
-    std::int32_t kind = sky;
-    glm::vec3 viewDirection{0, 0, -1};   ///< unit, from the viewer to the position
-    float distance = 0;                  ///< metres from the viewer; passed through
-    glm::vec3 geometricNormal{0, 1, 0};  ///< unit, on the viewer's side
-    float metallic = 0;                  ///< 0..1
-    glm::vec3 shadingNormal{0, 1, 0};    ///< unit, on the viewer's side
-    float roughness = 1;                 ///< 0..1, perceptual
-    glm::vec3 albedo{0.0f};              ///< base colour, 0..1
-    glm::vec3 direct{0.0f};              ///< in: emission; out: plus light of punctual lights, W sr^-1 m^-2
-    glm::vec3 indirect{0.0f};            ///< out: irradiance E of the field, W m^-2; radiance is albedo * E / pi
-};
-
-/// Deferred shading of `count` samples at the address of ShadingSample[count] (a multiple of 4, at most 2^30): punctual
+/// Deferred shading of `count` samples at the address of ScreenSample[count] (a multiple of 4, at most 2^30): punctual
 /// lights with shadow rays and the metallic-roughness material, then the field (null: none). The caller makes the
 /// samples visible to compute shaders before, and synchronises its own reads with the compute shader writes after.
 /// Errors: outOfMemory (the first call compiles the passes), invalidArgument (objects of different devices).

@@ -176,38 +176,22 @@ KERNEL_CONST int kSideFront = 0;
 KERNEL_CONST int kSideBack = 1;
 KERNEL_CONST int kSideBackface = 2;
 
-// One band of rows of a picture (picture_primary.comp, picture_direct.comp, picture_query.comp, picture_resolve.comp).
+// Samples of a frame of a picture, those of one pixel side by side (picture_*.comp).
 struct PicturePush {
-    uvec2 samples;   // GpuSample[sampleCount]
-    uvec2 layers;    // vec3[layer][pixel of the band]
+    uvec2 samples;   // ScreenSample[row][column][plane]
+    uvec2 layers;    // vec3[layer][pixel of the frame]
     uvec2 lighting;  // LightingBlock
     PinholeCamera camera;
     int width;  // pixels
     int firstRow;
-    int rows;  // of the band
+    int rows;  // of the frame
     int samplesPerAxis;
-    uint sampleCount;  // of the band
+    int firstPlane;
+    int planes;        // of the frame
+    uint sampleCount;  // of the frame
     int flags;         // kPictureDiffuseOnly
 };
 KERNEL_CONST int kPictureDiffuseOnly = 1;
-
-// A primary ray's result, passed between the passes of a picture.
-struct GpuSample {
-    vec3 position;
-    int kind;        // kSampleSky, kSampleSurface, kSampleBackface
-    vec3 direction;  // of the ray, unit
-    float distance;  // metres; 0 for the sky
-    vec3 geometricNormal;
-    float metallic;
-    vec3 shadingNormal;
-    float roughness;
-    vec3 albedo;
-    vec3 direct;    // radiance: emission and punctual lights, or the sky's
-    vec3 indirect;  // E from the field, W m^-2
-};
-KERNEL_CONST int kSampleSky = 0;
-KERNEL_CONST int kSampleSurface = 1;
-KERNEL_CONST int kSampleBackface = 2;
 
 // Linear values to 8-bit sRGB (tone_map.comp).
 struct ToneMapPush {
@@ -227,10 +211,10 @@ namespace probegi::kernels {
 static_assert(offsetof(SceneConstants, tracer) == 140 && sizeof(SceneConstants) == 204 && sizeof(LightingBlock) == 40);
 static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(BlendPush) == 112 &&
               sizeof(EnterPush) == 32 && sizeof(TracePush) == 76);
-static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 96);
+static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 104);
 static_assert(sizeof(TasksPush) == 24 && sizeof(FilterPush) == 76 &&
               sizeof(GpuProbeStep) == 80);
-static_assert(sizeof(ToneMapPush) == 36 && sizeof(GpuSurface) == 76 && sizeof(GpuSample) == 100);
+static_assert(sizeof(ToneMapPush) == 36 && sizeof(GpuSurface) == 76);
 }  // namespace probegi::kernels
 #endif
 

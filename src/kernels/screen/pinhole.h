@@ -29,6 +29,13 @@ KERNEL_FN vec3 pinholeDirection(PinholeCamera camera, float x, float y) {
     return normalize(camera.corner + camera.pixelRight * x + camera.pixelDown * y);
 }
 
+// The same through the middle of a cell of pixel (x, y): pixels have samplesPerAxis^2 cells, numbered row by row.
+KERNEL_FN vec3 subSampleDirection(PinholeCamera camera, int x, int y, int cell, int samplesPerAxis) {
+    const float side = 1.0f / float(samplesPerAxis);
+    return pinholeDirection(camera, float(x) + (float(cell % samplesPerAxis) + 0.5f) * side,
+                            float(y) + (float(cell / samplesPerAxis) + 0.5f) * side);
+}
+
 // Angle in radians covered by one of `samplesPerAxis` rays across a pixel, at the picture's centre.
 KERNEL_FN float pinholeSpread(PinholeCamera camera, int samplesPerAxis) {
     return length(camera.pixelRight) / float(samplesPerAxis);

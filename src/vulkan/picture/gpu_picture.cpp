@@ -1,15 +1,18 @@
+#include "vulkan/picture/gpu_picture.h"
+
+#include <algorithm>
 #include <chrono>
 
 #include "core/progress.h"
 #include "geometry/picture_desc.h"
 #include "kernels/abi/gpu_passes.h"
 #include "vulkan/field/vulkan_field.h"
-#include "vulkan/picture/shading.h"
 
 namespace probegi::vulkan {
 
 namespace {
 
+// Without neighbours: a band of rows, with all planes.
 constexpr std::size_t kSamplesPerBand = std::size_t(1) << 20;
 constexpr std::size_t kLayers = 7;
 
@@ -23,21 +26,22 @@ const Wanted& onDevice(const Device& device, const Given& given, const char* wha
     return *wanted;
 }
 
-/// The passes of a picture, band by band: memory for samples stays bounded.
+/// The passes of a picture, frame by frame: memory for samples stays bounded.
 class PictureRenderer {
 public:
-    PictureRenderer(const Device& device, const GpuTracer& tracer, const GpuLighting& lighting, const Field* field,
-                    const PictureDesc& desc)
-        : m_device(device), m_tracer(tracer), m_field(field), m_desc(desc), m_exchange(device) {
-        if (field) m_volume = &onDevice<VulkanField>(device, backendOf(*field), "field").passes();
-        m_profiler.emplace(orThrow(Profiler::create(device)));
-        const std::size_t perPixel = std::size_t(desc.samplesPerAxis) * desc.samplesPerAxis;
-        const std::size_t perRow = std::size_t(desc.width) * perPixel;
-        m_bandRows = int(std::clamp<std::size_t>(kSamplesPerBand / perRow, 1, std::size_t(desc.height)));
-        m_samples = Buffer(device.impl(), "picture samples",
-                           std::size_t(m_bandRows) * perRow * sizeof(kernels::GpuSample), kAddressed);
+    PictureRenderer(const GpuPicture& picture, std::span<const GpuPass> passes, std::size_t framePixels)
+        : m_picture(picture), m_passes(passes), m_exchange(picture.device) {
+        const PictureDesc& desc = picture.desc;
+        const bool wholeFrames = std::ranges::any_of(passes, &GpuPass::neighbours);
+        m_push.planes = wholeFrames ? 1 : planeCount(desc);
+        m_bandRows = frameRows(desc, wholeFrames ? framePixels : kSamplesPerBand / std::size_t(m_push.planes));
+        m_profiler.emplace(orThrow(Profiler::create(picture.device)));
+        m_samples = Buffer(
+            picture.device.impl(), "picture samples",
+            std::size_t(m_bandRows) * std::size_t(desc.width) * std::size_t(m_push.planes) * sizeof(ScreenSample),
+            kAddressed);
         m_push.samples = packAddress(m_samples.address());
-        m_push.lighting = packAddress(lighting.impl().address());
+        m_push.lighting = packAddress(picture.lighting.impl().address());
         const PlacedCamera& camera = desc.camera;
         m_push.camera =
             kernels::makePinhole(camera.position, camera.forward, camera.up, camera.yfov, desc.width, desc.height);
@@ -46,59 +50,54 @@ public:
         m_push.flags = desc.diffuseOnly ? kernels::kPictureDiffuseOnly : 0;
     }
 
-    int bands() const { return (m_desc.height + m_bandRows - 1) / m_bandRows; }
+    int bands() const { return (m_picture.desc.height + m_bandRows - 1) / m_bandRows; }
+    /// Of a band: its planes, or groups of them.
+    int frames() const { return planeCount(m_picture.desc) / m_push.planes; }
 
-    void render(int band, Picture& picture) {
+    void render(int band, int frame, Picture& layers) {
         m_push.firstRow = band * m_bandRows;
-        m_push.rows = std::min(m_bandRows, m_desc.height - m_push.firstRow);
-        const std::size_t pixels = std::size_t(m_push.rows) * std::size_t(m_desc.width);
-        m_push.sampleCount = std::uint32_t(pixels) * std::uint32_t(m_desc.samplesPerAxis * m_desc.samplesPerAxis);
-        m_exchange.begin(0, kLayers * pixels * sizeof(glm::vec3));
+        m_push.rows = std::min(m_bandRows, m_picture.desc.height - m_push.firstRow);
+        m_push.firstPlane = frame * m_push.planes;
+        const std::size_t pixels = std::size_t(m_push.rows) * std::size_t(m_push.width);
+        m_push.sampleCount = std::uint32_t(pixels) * std::uint32_t(m_push.planes);
+        const std::size_t bytes = kLayers * pixels * sizeof(glm::vec3);
+        if (frame == 0) m_exchange.begin(0, bytes);
         m_push.layers = packAddress(m_exchange.out());
-        m_exchange.run([&](const Recorder& recorder) { record(recorder, pixels); },
-                       kLayers * pixels * sizeof(glm::vec3));
-        store(picture, pixels);
-        for (const PassTime& pass : orThrow(m_profiler->read())) {
-            if (pass.name == "primary") m_times.primary += pass.milliseconds;
-            if (pass.name == "direct") m_times.direct += pass.milliseconds;
-            if (pass.name == "query") m_times.query += pass.milliseconds;
-        }
+        const bool last = frame + 1 == frames();
+        m_exchange.run([&](const Recorder& recorder) { record(recorder); }, last ? bytes : 0);
+        if (last) store(layers, pixels);
+        addTimes();
     }
 
     const PictureTimes& times() const noexcept { return m_times; }
 
 private:
-    void record(const Recorder& recorder, std::size_t pixels) {
-        const Device::Impl& device = m_device.impl();
+    void record(const Recorder& recorder) {
         m_profiler->recordReset(recorder.commands());
-        if (m_volume) m_volume->recordSettings(recorder, m_field->control().settings());
-        recorder.bindScene(m_tracer.scene().impl().set());
-        recorder.push(m_push);
-        {
-            const PassScope scope(recorder, device, &*m_profiler, "primary");
-            recorder.dispatchOver(m_tracer.scene().impl().shader("picture_primary"), m_push.sampleCount);
-        }
-        recorder.computeToCompute();
-        recordSampleShading(recorder, m_device, m_tracer.scene(), m_volume, m_push, &*m_profiler);
-        const PassScope scope(recorder, device, &*m_profiler, "resolve");
-        recorder.dispatchOver("picture_resolve", pixels);
+        if (m_picture.volume) m_picture.volume->recordSettings(recorder, m_picture.field->control().settings());
+        const SceneObjects objects{m_picture.scene, m_picture.volume};
+        bindPasses(recorder, objects, m_push);
+        for (const GpuPass& pass : m_passes) recordPass(recorder, objects, pass, m_push, &*m_profiler);
+    }
+
+    void addTimes() {
+        for (const PassTime& measured : orThrow(m_profiler->read()))
+            for (const GpuPass& pass : m_passes)
+                if (pass.time && measured.name == pass.name) m_times.*pass.time += measured.milliseconds;
     }
 
     void store(Picture& picture, std::size_t pixels) const {
         HdrImage* layers[kLayers] = {&picture.color,  &picture.direct, &picture.indirect, &picture.irradiance,
                                      &picture.albedo, &picture.normal, &picture.depth};
         const auto results = m_exchange.results<glm::vec3>();
-        const std::ptrdiff_t first = std::ptrdiff_t(m_push.firstRow) * m_desc.width;
+        const std::ptrdiff_t first = std::ptrdiff_t(m_push.firstRow) * m_push.width;
         for (std::size_t layer = 0; layer < kLayers; ++layer)
             std::copy_n(results.begin() + std::ptrdiff_t(layer * pixels), pixels,
                         layers[layer]->pixels.begin() + first);
     }
 
-    Device m_device;
-    const GpuTracer& m_tracer;
-    const Field* m_field;
-    FieldPasses* m_volume = nullptr;  // of the field
-    PictureDesc m_desc;
+    GpuPicture m_picture;
+    std::span<const GpuPass> m_passes;
     Exchange m_exchange;
     std::optional<Profiler> m_profiler;
     int m_bandRows = 1;
@@ -117,6 +116,20 @@ GpuLighting uploadedLighting(const Device& device, const Lighting& lighting) {
 
 }  // namespace
 
+RenderedPicture runPicture(const Context& context, const GpuPicture& picture, std::span<const GpuPass> passes,
+                           std::size_t framePixels) {
+    RenderedPicture rendered{emptyPicture(picture.desc.width, picture.desc.height), {}};
+    PictureRenderer renderer(picture, passes, framePixels);
+    Progress progress(context, "rendering", double(renderer.bands()) * renderer.frames());
+    for (int band = 0; band < renderer.bands(); ++band)
+        for (int frame = 0; frame < renderer.frames(); ++frame) {
+            renderer.render(band, frame, rendered.picture);
+            if (!progress.advance()) throw Failure(ErrorCode::cancelled, "rendering was cancelled");
+        }
+    rendered.times = renderer.times();
+    return rendered;
+}
+
 Result<RenderedPicture> renderPicture(const Context& context, const Device& device, const Tracer& tracer,
                                       const Lighting& lighting, const Field* field, const PictureDesc& desc) {
     if (auto ok = validatePictureDesc(desc); !ok) return ok.error();
@@ -124,14 +137,9 @@ Result<RenderedPicture> renderPicture(const Context& context, const Device& devi
         const auto start = std::chrono::steady_clock::now();
         const GpuTracer& gpuTracer = onDevice<GpuTracer>(device, tracer, "tracer");
         const GpuLighting lights = uploadedLighting(device, lighting);
-        RenderedPicture rendered{emptyPicture(desc.width, desc.height), {}};
-        PictureRenderer renderer(device, gpuTracer, lights, field, desc);
-        Progress progress(context, "rendering", renderer.bands());
-        for (int band = 0; band < renderer.bands(); ++band) {
-            renderer.render(band, rendered.picture);
-            if (!progress.advance()) throw Failure(ErrorCode::cancelled, "rendering was cancelled");
-        }
-        rendered.times = renderer.times();
+        FieldPasses* volume = field ? &onDevice<VulkanField>(device, backendOf(*field), "field").passes() : nullptr;
+        RenderedPicture rendered = runPicture(context, {device, gpuTracer.scene(), lights, field, volume, desc},
+                                              gpuPasses({gpuTracer.scene(), volume}));
         rendered.times.total =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return rendered;

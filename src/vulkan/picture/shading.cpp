@@ -4,39 +4,45 @@
 
 namespace probegi::vulkan {
 
-namespace {
+void recordPass(const Recorder& recorder, const SceneObjects& objects, const GpuPass& pass,
+                const kernels::PicturePush& push, Profiler* profiler) {
+    if (!pass.shader) return;
+    const PassScope scope(recorder, objects.scene.impl().device.impl(), profiler, pass.name);
+    recorder.dispatchOver(*pass.shader, pass.perPixel ? std::uint64_t(push.width) * push.rows : push.sampleCount);
+    recorder.computeToCompute();
+}
 
-using kernels::GpuSample;
-
-static_assert(sizeof(ShadingSample) == sizeof(GpuSample) && offsetof(ShadingSample, kind) == offsetof(GpuSample, kind));
-static_assert(offsetof(ShadingSample, viewDirection) == offsetof(GpuSample, direction));
-static_assert(offsetof(ShadingSample, geometricNormal) == offsetof(GpuSample, geometricNormal));
-static_assert(offsetof(ShadingSample, shadingNormal) == offsetof(GpuSample, shadingNormal));
-static_assert(offsetof(ShadingSample, albedo) == offsetof(GpuSample, albedo));
-static_assert(offsetof(ShadingSample, direct) == offsetof(GpuSample, direct));
-static_assert(offsetof(ShadingSample, indirect) == offsetof(GpuSample, indirect));
-static_assert(ShadingSample::surface == kernels::kSampleSurface && ShadingSample::sky == kernels::kSampleSky &&
-              ShadingSample::backface == kernels::kSampleBackface);
-
-}  // namespace
-
-void recordSampleShading(const Recorder& recorder, const Device& device, const GpuScene& scene,
-                         const FieldPasses* volume, const kernels::PicturePush& push, Profiler* profiler) {
-    // Sets stay bound through both passes, which share one layout.
-    if (volume) recorder.bindVolume(volume->set());
-    recorder.bindScene(scene.impl().set());
+void bindPasses(const Recorder& recorder, const SceneObjects& objects, const kernels::PicturePush& push) {
+    // Sets and constants stay bound through all passes, which share one layout.
+    if (objects.volume) recorder.bindVolume(objects.volume->set());
+    recorder.bindScene(objects.scene.impl().set());
     recorder.push(push);
-    {
-        const PassScope scope(recorder, device.impl(), profiler, "direct");
-        recorder.dispatchOver(scene.impl().shader("picture_direct"), push.sampleCount);
+}
+
+GpuPass gpuPass(const PassInfo& info, const SceneObjects& objects) {
+    GpuPass pass{info.name, {}, info.time, info.neighbours};
+    switch (info.pass) {
+        case PicturePass::primary:
+            pass.shader = objects.scene.impl().shader("picture_primary");
+            break;
+        case PicturePass::direct:
+            pass.shader = objects.scene.impl().shader("picture_direct");
+            break;
+        case PicturePass::query:
+            if (objects.volume) pass.shader = "picture_query";
+            break;
+        case PicturePass::accumulate:
+            pass.shader = "picture_accumulate";
+            pass.perPixel = true;
+            break;
     }
-    recorder.computeToCompute();
-    if (!volume) return;
-    {
-        const PassScope scope(recorder, device.impl(), profiler, "query");
-        recorder.dispatchOver("picture_query", push.sampleCount);
-    }
-    recorder.computeToCompute();
+    return pass;
+}
+
+std::vector<GpuPass> gpuPasses(const SceneObjects& objects) {
+    std::vector<GpuPass> passes;
+    for (const PassInfo& info : kPicturePasses) passes.push_back(gpuPass(info, objects));
+    return passes;
 }
 
 Result<void> recordShading(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,
@@ -54,7 +60,11 @@ Result<void> recordShading(VkCommandBuffer commands, const GpuScene& scene, cons
         push.lighting = packAddress(lighting.impl().address());
         push.sampleCount = count;
         push.flags = diffuseOnly ? kernels::kPictureDiffuseOnly : 0;
-        recordSampleShading(recorder, device, scene, passes, push, profiler);
+        const SceneObjects objects{scene, passes};
+        bindPasses(recorder, objects, push);
+        for (const PassInfo& info : kPicturePasses)
+            if (info.pass == PicturePass::direct || info.pass == PicturePass::query)
+                recordPass(recorder, objects, gpuPass(info, objects), push, profiler);
     });
     if (!done && passes) passes->forgetRecorded();
     return done;

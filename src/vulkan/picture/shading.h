@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
+#include "geometry/picture_passes.h"
 #include "kernels/abi/gpu_passes.h"
 #include "vulkan/field/gpu_field_impl.h"
 #include "vulkan/scene/gpu_lighting_impl.h"
@@ -7,9 +11,29 @@
 
 namespace probegi::vulkan {
 
-/// Direct light and the field for the samples that `push` names. `volume` (may be null) is bound by this; its guard is
-/// up to date. Ends ordered for compute shaders. Throws.
-void recordSampleShading(const Recorder& recorder, const Device& device, const GpuScene& scene,
-                         const FieldPasses* volume, const kernels::PicturePush& push, Profiler* profiler);
+/// What the passes of a picture read.
+struct SceneObjects {
+    const GpuScene& scene;
+    const FieldPasses* volume;  ///< may be null; its settings are up to date
+};
+
+/// A pass on the GPU: a shader with PicturePush, one thread a sample. Members as in PassInfo.
+struct GpuPass {
+    const char* name;
+    std::optional<Shader> shader;  ///< none: there is nothing to do
+    double PictureTimes::*time = nullptr;
+    bool neighbours = false;
+    bool perPixel = false;  ///< one thread a pixel
+};
+
+GpuPass gpuPass(const PassInfo& info, const SceneObjects& objects);
+/// kPicturePasses on the GPU.
+std::vector<GpuPass> gpuPasses(const SceneObjects& objects);
+
+/// Before passes, with what they share.
+void bindPasses(const Recorder& recorder, const SceneObjects& objects, const kernels::PicturePush& push);
+/// Ends ordered for compute shaders. Throws.
+void recordPass(const Recorder& recorder, const SceneObjects& objects, const GpuPass& pass,
+                const kernels::PicturePush& push, Profiler* profiler);
 
 }  // namespace probegi::vulkan

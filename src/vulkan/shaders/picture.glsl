@@ -6,13 +6,14 @@
 #include "types.glsl"
 
 #include "kernels/abi/gpu_passes.h"
+#include "probegi/shared/screen_sample.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Samples {
-    GpuSample at[];
+    ScreenSample at[];
 };
 
 // The surface that a sample shows, as far as passes after the first need it.
-Surface sampleSurface(GpuSample s) {
+Surface sampleSurface(ScreenSample s) {
     Surface surface;
     surface.position = s.position;
     surface.geometricNormal = s.geometricNormal;

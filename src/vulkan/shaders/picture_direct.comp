@@ -12,14 +12,14 @@ layout(push_constant, scalar) uniform Push {
 void main() {
     const uint index = globalIndex();
     if (index >= push.sampleCount) return;
-    const GpuSample s = Samples(push.samples).at[index];
+    const ScreenSample s = Samples(push.samples).at[index];
     if (s.kind != kSampleSurface) return;
     useLighting(push.lighting);
     const Surface surface = sampleSurface(s);
     const mat3 frame = orthonormalBasis(surface.shadingNormal);
     const Bsdf bsdf =
         makeBsdf(surface.albedo, surface.metallic, surface.roughness, (push.flags & kPictureDiffuseOnly) != 0);
-    const vec3 toViewer = toLocal(frame, -s.direction);
+    const vec3 toViewer = toLocal(frame, -s.viewDirection);
     vec3 direct = s.direct;
     for (int i = 0; i < PROBEGI_SCENE.lightCount; ++i) {
         const LightSample light = lightSampleAt(i, surface.position);

@@ -1,4 +1,4 @@
-// Primary rays of a band of a picture: what each sample shows, its own emission, or the sky.
+// Primary rays of a picture: what each sample shows, its own emission, or the sky.
 // variants: tracers
 #include "picture.glsl"
 #include "scene_set.glsl"
@@ -7,15 +7,12 @@ layout(push_constant, scalar) uniform Push {
     PicturePush push;
 };
 
-// Samples lie pixel by pixel, rows of the pixel's grid one after the other.
 Ray primaryRay(uint index) {
-    const int side = push.samplesPerAxis;
-    const int perPixel = side * side;
-    const int pixel = int(index) / perPixel;
-    const int within = int(index) % perPixel;
-    const float x = float(pixel % push.width) + (float(within % side) + 0.5) / float(side);
-    const float y = float(push.firstRow + pixel / push.width) + (float(within / side) + 0.5) / float(side);
-    return Ray(push.camera.origin, 0.0, pinholeDirection(push.camera, x, y), kNoHitDistance);
+    const int pixel = int(index) / push.planes;
+    const int plane = push.firstPlane + int(index) % push.planes;
+    const vec3 direction = subSampleDirection(push.camera, pixel % push.width, push.firstRow + pixel / push.width,
+                                              plane, push.samplesPerAxis);
+    return Ray(push.camera.origin, 0.0, direction, kNoHitDistance);
 }
 
 void main() {
@@ -24,18 +21,18 @@ void main() {
     useLighting(push.lighting);
     const Ray ray = primaryRay(index);
     const Hit hit = closestHit(ray);
-    GpuSample s;
-    s.direction = ray.direction;
+    ScreenSample s;
+    s.viewDirection = ray.direction;
     s.indirect = vec3(0.0);
     if (hit.primitive < 0) {
         s.kind = kSampleSky;
         s.direct = skyRadianceAt(ray.direction);
         s.position = vec3(0.0);
-        s.geometricNormal = vec3(0.0);
-        s.shadingNormal = vec3(0.0);
+        s.geometricNormal = vec3(0.0, 1.0, 0.0);
+        s.shadingNormal = vec3(0.0, 1.0, 0.0);
         s.albedo = vec3(0.0);
         s.metallic = 0.0;
-        s.roughness = 0.0;
+        s.roughness = 1.0;
         s.distance = 0.0;
     } else {
         const Surface surface = surfaceAt(ray, hit, pinholeSpread(push.camera, push.samplesPerAxis));

@@ -9,8 +9,8 @@ layout(push_constant, scalar) uniform Push {
 void main() {
     const uint index = globalIndex();
     if (index >= push.sampleCount) return;
-    const GpuSample s = Samples(push.samples).at[index];
+    const ScreenSample s = Samples(push.samples).at[index];
     // The back of a wall receives nothing.
     if (s.kind != kSampleSurface) return;
-    Samples(push.samples).at[index].indirect = probegiIrradiance(s.position, s.shadingNormal, -s.direction);
+    Samples(push.samples).at[index].indirect = probegiIrradiance(s.position, s.shadingNormal, -s.viewDirection);
 }

@@ -8,5 +8,5 @@ void evaluate(INOUT(Lane) lane) {
     query.queries = uvec2(takeBits(lane), 1u);
     query.count = 3u;
     giveBits(lane, query.queries.x + query.count);
-    giveBits(lane, uint(kPictureDiffuseOnly + kSampleSky + kSampleSurface + kSampleBackface));
+    giveBits(lane, uint(kPictureDiffuseOnly));
 }

@@ -14,5 +14,8 @@ void evaluate(INOUT(Lane) lane) {
     const float x = takeBetween(lane, 0.0f, float(width));
     const float y = takeBetween(lane, 0.0f, float(height));
     giveVec3(lane, pinholeDirection(camera, x, y), 1e-4f);
+    const int column = takeIndex(lane, width);
+    const int row = takeIndex(lane, height);
+    giveVec3(lane, subSampleDirection(camera, column, row, takeIndex(lane, 9), 3), 1e-4f);
     give(lane, pinholeSpread(camera, 1 + takeIndex(lane, 8)), 1e-4f);
 }

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "probegi/render.h"
+
+namespace probegi {
+
+/// What is done with the samples (ScreenSample) of a picture. src/render and src/vulkan/picture have each pass on their
+/// backend.
+enum class PicturePass : std::uint8_t {
+    primary,     ///< what each sample shows, its own emission, or the sky
+    direct,      ///< punctual lights with shadows
+    query,       ///< the field
+    accumulate,  ///< samples are added to the layers of their pixels; the last of a pixel makes means of them
+};
+
+struct PassInfo {
+    PicturePass pass;
+    const char* name;            ///< of its timestamps
+    double PictureTimes::*time;  ///< where its time counts; null: in the total only
+    /// Reads other pixels' samples: a screen pass. What it reads of them it must not write, for they may be at work.
+    bool neighbours;
+};
+
+/// The passes in their order, on every backend.
+///
+/// A plane is one sample of every pixel, row-major. If any pass has neighbours, planes go through the passes one after
+/// the other, each pass with all of the frame behind it. A frame is the whole picture up to kFramePixels, or else a
+/// band of rows, so that memory stays bounded; neighbours are those within the band.
+///
+/// If none has, nothing needs a frame: small parts of the picture take all their planes from pass to pass together,
+/// which saves the memory and its traffic, and rays of a pixel are traced side by side (measured on the CPU: 15 to 18 %
+/// of a picture's time).
+inline constexpr std::array kPicturePasses{
+    PassInfo{PicturePass::primary, "primary", &PictureTimes::primary, false},
+    PassInfo{PicturePass::direct, "direct", &PictureTimes::direct, false},
+    PassInfo{PicturePass::query, "query", &PictureTimes::query, false},
+    // Screen passes go here.
+    PassInfo{PicturePass::accumulate, "accumulate", nullptr, false},
+};
+
+/// 3840 x 2160 fit, 839 MB of samples.
+inline constexpr std::size_t kFramePixels = std::size_t(1) << 23;
+
+/// Rows of a frame of at most `framePixels`, one at least. Bands have so many, but for the last.
+inline int frameRows(const PictureDesc& desc, std::size_t framePixels) {
+    return int(std::clamp<std::size_t>(framePixels / std::size_t(desc.width), 1, std::size_t(desc.height)));
+}
+
+/// Planes of a picture: sub-samples of a pixel.
+inline int planeCount(const PictureDesc& desc) {
+    return desc.samplesPerAxis * desc.samplesPerAxis;
+}
+
+}  // namespace probegi

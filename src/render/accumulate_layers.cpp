@@ -1,0 +1,44 @@
+#include "kernels/screen/pixel_layers.h"
+#include "render/frame_pass.h"
+
+namespace probegi {
+
+namespace {
+
+kernels::PixelLayers load(const Picture& picture, std::size_t pixel) {
+    return {picture.color.pixels[pixel],      picture.direct.pixels[pixel], picture.indirect.pixels[pixel],
+            picture.irradiance.pixels[pixel], picture.albedo.pixels[pixel], picture.normal.pixels[pixel],
+            picture.depth.pixels[pixel].x};
+}
+
+void store(const kernels::PixelLayers& layers, Picture& picture, std::size_t pixel) {
+    picture.color.pixels[pixel] = layers.color;
+    picture.direct.pixels[pixel] = layers.direct;
+    picture.indirect.pixels[pixel] = layers.indirect;
+    picture.irradiance.pixels[pixel] = layers.irradiance;
+    picture.albedo.pixels[pixel] = layers.albedo;
+    picture.normal.pixels[pixel] = layers.normal;
+    picture.depth.pixels[pixel] = glm::vec3(layers.depth);
+}
+
+void add(const ScreenSample& sample, kernels::PixelLayers& sums) {
+    if (sample.kind == kSampleSky)
+        kernels::addSky(sums, sample.direct);
+    else
+        kernels::addSurface(sums, sample.direct, sample.indirect, sample.albedo, sample.shadingNormal, sample.distance);
+}
+
+}  // namespace
+
+Result<void> accumulateLayers(PictureTask& task, const PixelRect& part, Frame& frame) {
+    const int planes = planeCount(task.desc);
+    forEachPixel(part, [&](int x, int y) {
+        const std::size_t pixel = std::size_t(y) * std::size_t(task.desc.width) + std::size_t(x);
+        kernels::PixelLayers sums = frame.firstPlane() == 0 ? kernels::emptyLayers() : load(task.layers, pixel);
+        for (int plane = frame.firstPlane(); plane < frame.endPlane(); ++plane) add(frame.at(x, y, plane), sums);
+        store(frame.endPlane() == planes ? kernels::meanLayers(sums, planes) : sums, task.layers, pixel);
+    });
+    return {};
+}
+
+}  // namespace probegi
