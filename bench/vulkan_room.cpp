@@ -49,6 +49,7 @@ VulkanRoom::VulkanRoom(const RoomField& room, std::span<const RayDatum> rayData)
 UpdateFrame VulkanRoom::frame() const {
     return {.desc = m_room.desc(),
             .settings = m_room.settings(),
+            .volumes = m_volume.volumes(),
             .tasks = m_room.tasks(),
             .directions = m_room.directions(),
             .hysteresis = {0.5f, 0.5f},

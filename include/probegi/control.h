@@ -101,9 +101,8 @@ public:
     /// The probes of the coming updates, in the order of their ray data.
     std::span<const ProbeTask> tasks() const noexcept;
     /// Chooses the probes of all coming updates, by slot, in any order; empty: all of them, as at first. Others keep
-    /// what they know. Let the first update be of all: with FieldRules::paper a probe that comes later joins the black
-    /// that it began with at the hysteresis's rate. converge() is about all probes in any case. Errors: invalidArgument
-    /// (a slot that is not there, or twice), outOfMemory.
+    /// what they know: nothing but black until their first update, which keeps none of it. converge() is about all
+    /// probes in any case. Errors: invalidArgument (a slot that is not there, or twice), outOfMemory.
     Result<void> setTasks(std::span<const std::uint32_t> slots);
 
     /// Unit directions of the coming update's rays, raysPerProbe of them, shared by all probes: a spherical Fibonacci

@@ -30,6 +30,23 @@ TEST(Placement, coversTheSceneWithACellOfMargin) {
     EXPECT_GE(probeCount(*grid), 8192 / 2);
 }
 
+// Where a window must go to follow a point.
+TEST(Placement, cellsToCentreBringThePointToTheMiddle) {
+    VolumeDesc volume{.origin = {3, -2, 7}, .spacing = {0.5f, 2, 1}, .counts = {8, 5, 6}};
+    for (const float angle : {0.0f, 0.8f}) {
+        volume.orientation = glm::angleAxis(angle, glm::vec3(0, 0.6f, 0.8f));
+        for (const glm::vec3 point : {glm::vec3(0, 0, 0), glm::vec3(-81.3f, 40, 3), glm::vec3(1e3f, 0.2f, -5e2f)}) {
+            const glm::ivec3 cells = cellsToCentre(volume, point);
+            VolumeDesc moved = volume;
+            moved.origin += volume.orientation * (glm::vec3(cells) * volume.spacing);
+            const glm::vec3 middle = 0.5f * glm::vec3(volume.counts - 1) * volume.spacing;
+            const glm::vec3 off = glm::conjugate(volume.orientation) * (point - moved.origin) - middle;
+            for (int a = 0; a < 3; ++a) EXPECT_LE(std::abs(off[a]), 0.501f * volume.spacing[a]) << a;
+            EXPECT_EQ(cellsToCentre(moved, point), glm::ivec3(0));
+        }
+    }
+}
+
 TEST(Placement, doesNotDependOnTheScale) {
     const glm::vec3 size(0.02f, 0.01f, 0.03f);
     const auto small = placeVolume({glm::vec3(0), size});

@@ -18,6 +18,11 @@ TEST(SolidProbe, frontsAndBacksTellRoomsFromWalls) {
     EXPECT_FALSE(looksForWay({0.1f, 0.9f, 0u, 0u, 0u})) << "in a room";
 }
 
+TEST(SolidProbe, aNewProbeIsNeitherSolidNorOpen) {
+    EXPECT_FALSE(mayBeSolid(noSides()));
+    EXPECT_FALSE(mayBeOpen(noSides()));
+}
+
 TEST(SolidProbe, whatIsRememberedFollowsTheHysteresis) {
     const ProbeSides sides = rememberSides({0.5f, 0.25f, 3u, 7u, 5u}, {60, 20, 10}, 100, 0.75f);
     EXPECT_FLOAT_EQ(sides.backs, 0.75f * 0.5f + 0.25f * 0.2f);

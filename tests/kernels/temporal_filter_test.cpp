@@ -173,6 +173,16 @@ TEST(TemporalFilter, packingKeepsTheMean) {
     EXPECT_EQ(forgotten.window, kLongestWindow);
 }
 
+TEST(TemporalFilter, aNewProbesFilterSaysSo) {
+    EXPECT_TRUE(isNew(newFilter()));
+    EXPECT_TRUE(isUnknown(unpackFilter(newFilter())));
+    EXPECT_EQ(nextWindow(unpackFilter(newFilter()).window, 0, 0, kLongestWindow), 1.0f) << "keeps nothing";
+    EXPECT_FALSE(isNew(forgottenFilter(1)));
+    ProbeFilter used = unpackFilter(newFilter());
+    used.window = used.visibilityWindow = 1;
+    EXPECT_FALSE(isNew(packFilter(used, 0)));
+}
+
 TEST(TemporalFilter, changeOfTexelsIsRelative) {
     TexelChange change = noChange();
     for (int i = 0; i < 4; ++i) addTexelChange(change, vec3(1.0f), vec3(i % 2 ? 1.5f : 0.5f));

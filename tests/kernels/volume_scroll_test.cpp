@@ -46,7 +46,9 @@ TEST(Scroll, placesKeepTheirSlotsWhileTheyStay) {
             EXPECT_EQ(probeCell(v, slot), cell);
             const auto before = slotOf.find({place.x, place.y, place.z});
             EXPECT_EQ(hasEntered(v, cell, cells), before == slotOf.end());
-            if (before != slotOf.end()) { EXPECT_EQ(before->second, slot); }
+            if (before != slotOf.end()) {
+                EXPECT_EQ(before->second, slot);
+            }
             now[{place.x, place.y, place.z}] = slot;
         });
         slotOf = std::move(now);

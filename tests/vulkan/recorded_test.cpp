@@ -102,6 +102,34 @@ TEST_F(VulkanRecorded, updatesAndQueriesInOneCommandBuffer) {
     EXPECT_NE(valuesOf(unguarded), valuesOf(second));
 }
 
+// As an engine does whose volume follows the camera: scroll, update, ask, all in one command buffer.
+TEST_F(VulkanRecorded, aVolumeScrollsBetweenUpdates) {
+    const vulkan::Device device = adopt();
+    GpuField volume = *GpuField::create(device, world.desc, world.desc);
+    Field onCpu = *Field::create(log, world.desc, world.desc);
+    const EngineBuffer before = answers(), after = answers();
+    const glm::ivec3 cells(1, 0, -1);
+    engine.run([&](VkCommandBuffer commands) {
+        volume.recordClear(commands).value();
+        volume.recordUpdate(commands, rayBuffer.range()).value();
+        volume.recordScroll(commands, 0, cells).value();
+        volume.recordQuery(commands, questions.address, before.address, count()).value();
+        volume.recordUpdate(commands, rayBuffer.range()).value();
+        volume.recordQuery(commands, questions.address, after.address, count()).value();
+        EXPECT_EQ(volume.recordScroll(commands, 1, cells).error().code, ErrorCode::invalidArgument);
+    });
+    std::vector<glm::vec3> wanted(queries.size());
+    onCpu.update(rays).value();
+    onCpu.scroll(0, cells).value();
+    onCpu.irradiance(queries, wanted).value();
+    expectEqual(before, wanted, 2e-3f);
+    onCpu.update(rays).value();
+    onCpu.irradiance(queries, wanted).value();
+    expectEqual(after, wanted, 2e-3f);
+    EXPECT_EQ(volume.control().place(0), onCpu.control().place(0));
+    EXPECT_NE(volume.control().place(0), world.desc.volumes[0]);
+}
+
 TEST_F(VulkanRecorded, updatesAndQueriesInSubmitsOfTheirOwn) {
     const vulkan::Device device = adopt();
     GpuField volume = *GpuField::create(device, world.desc, world.desc);

@@ -212,8 +212,7 @@ static_assert(offsetof(SceneConstants, tracer) == 140 && sizeof(SceneConstants) 
 static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(BlendPush) == 112 &&
               sizeof(EnterPush) == 32 && sizeof(TracePush) == 76);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 104);
-static_assert(sizeof(TasksPush) == 24 && sizeof(FilterPush) == 76 &&
-              sizeof(GpuProbeStep) == 80);
+static_assert(sizeof(TasksPush) == 24 && sizeof(FilterPush) == 76 && sizeof(GpuProbeStep) == 80);
 static_assert(sizeof(ToneMapPush) == 36 && sizeof(GpuSurface) == 76);
 }  // namespace probegi::kernels
 #endif

@@ -35,4 +35,5 @@ void evaluate(INOUT(Lane) lane) {
     const ProbeSides next = foundWay(sides, found == 17u ? kNoWayOut : found);
     giveBits(lane, next.nextSteps);
     giveBits(lane, next.trust);
+    giveBits(lane, stepsBy(noSides().steps) + noSides().nextSteps + noSides().trust);
 }

@@ -82,6 +82,8 @@ void evaluate(INOUT(Lane) lane) {
     // Halves may be rounded to either side if the last bit of the light differs.
     giveFilter(lane, unpackFilter(packed), 8e-3f);
     giveFilter(lane, unpackFilter(forgottenFilter(state.window)), 1e-3f);
+    giveFilter(lane, unpackFilter(newFilter()), 1e-6f);
+    giveBits(lane, (isNew(packed) ? 1u : 0u) + (isNew(newFilter()) ? 2u : 0u));
     give(lane, unpackLight(packLight(takeBetween(lane, 0.0f, 1000.0f), 0u)), 8e-3f);
     giveBits(lane, packWindows(float(takeIndex(lane, 200)), 3.5f));
 }
