@@ -20,7 +20,8 @@ std::size_t volumeOf(std::span<const kernels::Volume> volumes, int slot) {
 
 glm::ivec3 cellsToCentre(const VolumeDesc& volume, glm::vec3 point) noexcept {
     const glm::vec3 inVolume = glm::conjugate(volume.orientation) * (point - volume.origin);
-    return glm::ivec3(glm::round(inVolume / volume.spacing - 0.5f * glm::vec3(volume.counts - 1)));
+    // Down from the half, so that a point on the seam of two cells moves the window once only.
+    return glm::ivec3(glm::floor(inVolume / volume.spacing - 0.5f * glm::vec3(volume.counts - 1) + 0.5f));
 }
 
 VolumeDesc scrolledVolume(const VolumeDesc& volume, glm::ivec3 cells) {
