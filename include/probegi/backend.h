@@ -19,17 +19,18 @@ enum class BackendKind : std::uint8_t {
     vulkan,  ///< Vulkan compute; triangles by the library's BVH or by ray query
 };
 
-/// Draws pictures. Move-only by its pointer; one picture at a time.
+/// Renders pictures, one at a time.
 class PROBEGI_API PictureRenderer {
 public:
     virtual ~PictureRenderer() = default;
-    /// As renderPicture(). The tracer and the field (null: no indirect light) must be of the renderer's backend.
+    /// As renderPicture(). The tracer and the field (null: no indirect light) must be of the renderer's backend, else a
+    /// GPU's fails with invalidArgument.
     virtual Result<RenderedPicture> render(const Tracer& tracer, const Lighting& lighting, const Field* field,
                                            const PictureDesc& desc) = 0;
 };
 
-/// All that a program needs of the place where passes run, so that it need not know which one that is. What a backend
-/// makes may outlive it. Thread-safe as far as its parts are: those on one Vulkan device take calls one at a time.
+/// Creates tracers, fields and renderers for one place to run passes, so that a program need not know which one it is.
+/// What it creates may outlive it. Objects of one Vulkan device take calls one at a time.
 class PROBEGI_API Backend {
 public:
     virtual ~Backend() = default;
@@ -41,13 +42,13 @@ public:
     /// The same for a scene in which things move. Errors: those, and invalidArgument (no such node in the scene).
     virtual Result<std::unique_ptr<MovableTracer>> openMovableScene(const Scene& scene, const ScenePose& pose,
                                                                     const MovableDesc& movable = {}) const = 0;
-    /// Errors: as Field::create; unsupported (more probes than the device's images hold).
+    /// Errors: as Field::create; of a GPU also unsupported (more probes or rays than it can hold), deviceLost.
     virtual Result<Field> makeField(const FieldDesc& desc, const FieldSettings& settings = {}) const = 0;
     /// Errors: outOfMemory.
     virtual Result<std::unique_ptr<PictureRenderer>> makeRenderer() const = 0;
 };
 
-/// Which backend, and what only some of them have.
+/// Selects a backend; the CPU's takes no further options.
 struct BackendDesc {
     BackendKind kind = BackendKind::cpu;
     /// vulkan: an index or part of a name from vulkan::listDevices(); empty: the first usable device, discrete GPUs
@@ -57,8 +58,8 @@ struct BackendDesc {
     std::filesystem::path cacheFolder{};        ///< vulkan: for compiled pipelines; empty: they are compiled every run
 };
 
-/// The CPU's, or that of a Vulkan device which is opened for it; vulkan::makeBackend() takes a device that is open.
-/// Errors: unsupported (built without Vulkan, no such device, what it lacks), outOfMemory.
+/// Opens the CPU backend, or a Vulkan device and its backend; vulkan::makeBackend() takes a device that is open
+/// already. Errors: unsupported (built without Vulkan, no such device, what it lacks), outOfMemory.
 PROBEGI_API Result<std::unique_ptr<Backend>> openBackend(const Context& context, const BackendDesc& desc = {});
 
 }  // namespace probegi

@@ -33,11 +33,11 @@ enum class FieldRules : std::uint8_t {
 
 /// What a Field is made of; fixed once it is made.
 struct FieldDesc {
-    /// Its probes, 1..32 volumes. All have the same maps and share the rays of an update. Probes are numbered through:
-    /// slot 0 is the first probe of the first volume, the second volume follows the last probe of the first. Where
-    /// volumes overlap, the first one answers.
+    /// Its probes, 1..32 volumes. All have the same maps and share the rays of an update. Probes are numbered
+    /// consecutively: slot 0 is the first probe of the first volume until that scrolls, the second volume follows the
+    /// last probe of the first. Where volumes overlap, the first one answers.
     std::vector<VolumeDesc> volumes = std::vector<VolumeDesc>(1);
-    int raysPerProbe = 144;     ///< update rays a probe and frame, 8..4096
+    int raysPerProbe = 144;     ///< update rays per probe and frame, 8..4096
     int fixedRays = 16;         ///< more rays a probe and update, always along the same directions: they tell change
                                 ///< from noise (FieldRules::measured only); 0..256; 0: change is not looked for
     int irradianceTexels = 8;   ///< side of the octahedral irradiance map, 4..32, even
@@ -79,9 +79,9 @@ enum class FieldEvent : std::uint8_t {
     largeObjectChange,  ///< irradiance hysteresis -50 % for 10 frames, visibility hysteresis -50 % for 7 frames
 };
 
-/// The books of a field, the same on every backend: what the coming update is about (probes, rays), the settings, and
-/// the events that were announced. Every Field has one, and every vulkan::GpuField. Owned by the field. Changes must
-/// not run beside each other, an update, a query or converge() (its callback included).
+/// The state of a field from frame to frame, the same on every backend: what the coming update is about (probes, rays),
+/// the settings, and the events that were announced. Every Field has one, and every vulkan::GpuField. Owned by the
+/// field. Changes must not run concurrently with each other, an update, a query or converge() (its callback included).
 class PROBEGI_API FieldControl {
 public:
     const FieldDesc& desc() const noexcept;
@@ -95,14 +95,14 @@ public:
     /// Where volume `volume` stands after all scrolling (Field::scroll): desc().volumes[volume] with another origin.
     VolumeDesc place(int volume) const noexcept;
 
-    /// Announces a change to the scene (section 4.3). Its frames are updates, whichever probes these are about.
+    /// Announces a change to the scene (section 4.3). Durations count updates, whichever probes these update.
     void notify(FieldEvent event) noexcept;
 
     /// The probes of the coming updates, in the order of their ray data.
     std::span<const ProbeTask> tasks() const noexcept;
     /// Chooses the probes of all coming updates, by slot, in any order; empty: all of them, as at first. Others keep
-    /// what they know: nothing but black until their first update, which keeps none of it. converge() is about all
-    /// probes in any case. Errors: invalidArgument (a slot that is not there, or twice), outOfMemory.
+    /// their contents; a probe that was never updated is black, and its first update replaces all of it. converge()
+    /// always updates all probes. Errors: invalidArgument (a slot that is not there, or twice), outOfMemory.
     Result<void> setTasks(std::span<const std::uint32_t> slots);
 
     /// Unit directions of the coming update's rays, raysPerProbe of them, shared by all probes: a spherical Fibonacci

@@ -21,7 +21,7 @@ namespace probegi {
 /// AVX3 (AVX-512), NEON... Chosen when the program runs.
 PROBEGI_API std::string_view instructionSet() noexcept;
 
-/// Wall-clock milliseconds of one update. Stages overlap nothing; total includes what is in none of them.
+/// Wall-clock milliseconds of one update. Stages do not overlap; total includes what is in none of them.
 struct UpdateTimes {
     double trace = 0;  ///< closest hits
     double shade = 0;  ///< surfaces, textures, shadow rays, multi-bounce query
@@ -33,7 +33,7 @@ struct UpdateTimes {
 struct ConvergeResult {
     int updates = 0;         ///< done
     bool converged = false;  ///< within the tolerance; else the cap on updates was hit first
-    /// Estimate of how far the light of the worst region still is from where it goes, relative, 0 or more; infinite
+    /// Estimate of how far the light of the worst region still is from its limit, relative, 0 or more; infinite
     /// where there were too few updates to tell.
     float remaining = 0;
 };
@@ -65,8 +65,8 @@ public:
 
     /// One update from the caller's own rays: datum [task * raysPerProbe + ray] came along
     /// control().rayDirections()[ray] from control().tasks()[task].origin. `fixedRays`, [task * fixedRays + ray] along
-    /// fixedRayDirections(), lets the field follow changes at once and forget noise for long; without it (empty) old
-    /// light fades by the hysteresis. Errors: invalidArgument (wrong length), outOfMemory.
+    /// fixedRayDirections(), lets the field react to changes at once and average noise over long windows; without it
+    /// (empty) old light fades by the hysteresis. Errors: invalidArgument (wrong length), outOfMemory.
     Result<UpdateTimes> update(std::span<const RayDatum> rayData, std::span<const FixedRayDatum> fixedRays = {});
 
     /// One update with the library's pipeline: trace, shade with `lighting` and last frame's field, blend. All surfaces
@@ -75,25 +75,27 @@ public:
     Result<UpdateTimes> update(const Tracer& tracer, const Lighting& lighting);
 
     /// For pictures of a scene that stands still: updates until the light of every region (a block of 4 x 4 x 4 probes,
-    /// each relative to its own light) is estimated to be within `tolerance` of where it goes, or maxFrames is reached.
+    /// each relative to its own light) is estimated to be within `tolerance` of its limit, or maxFrames is reached.
     /// First the bounces, one an update, then an average in linear light, which is unbiased: what is estimated is the
     /// share of light that further bounces would add, and one and a half standard errors of the noise. The scene's and
     /// the grid's own errors are not in it. Not counted: probes in walls, and those with less than 1e-4 of the mean
     /// light; noise of those below 1e-2 counts as if they had that much.
     /// `tolerance` > 0, maxFrames >= 1; `onUpdate`, where given, receives the times of every update. The field's events
-    /// and hysteresis take no part. Errors: cancelled, invalidArgument, outOfMemory, and those of the tracer.
+    /// and hysteresis are ignored. Errors: cancelled, invalidArgument, outOfMemory, and those of the tracer.
     Result<ConvergeResult> converge(const Tracer& tracer, const Lighting& lighting, float tolerance = 0.03f,
                                     int maxFrames = 256, const std::function<void(const UpdateTimes&)>& onUpdate = {});
 
     /// Moves the window of a volume by whole cells along the volume's axes, any number of them, so that it follows a
     /// camera (section 7.3; cellsToCentre() says how far). Probes that stay inside keep all they know. Those that enter
-    /// take the slots of those that leave, and are new: no look-up uses them before their first update, which keeps
-    /// nothing. Excludes queries, as an update does. Errors: invalidArgument (no such volume, beyond 1e9 cells from
-    /// where it was made); of a field on a GPU also deviceLost, outOfMemory.
+    /// take the slots of those that leave, and start empty: no look-up uses them before their first update, so update
+    /// in the same frame (where all around a point is new, the answer is black until then). Excludes queries, as an
+    /// update does. Errors: invalidArgument (no such volume; where coordinates are too coarse for its spacing, as
+    /// create(); from converge()'s callback), outOfMemory; of a field on a GPU also deviceLost. The volume is then
+    /// where it was.
     Result<void> scroll(int volume, glm::ivec3 cells);
 
     /// Irradiance E in W m^-2. Unchecked and noexcept: vectors must be finite and unit (`toViewer`: or zero). Outside
-    /// all volumes the nearest one's nearest cell answers. A field on a GPU that was lost answers with not-a-number.
+    /// all volumes the nearest one's nearest cell answers. A field on a GPU that was lost returns NaN.
     glm::vec3 irradiance(const FieldQuery& query) const noexcept;
 
     /// The same for many points, on all threads.
@@ -109,11 +111,11 @@ public:
     Result<FieldSnapshot> read() const;
     Result<FieldSnapshot> read(SlotRange slots) const;
 
-    /// Replaces what the probes of the snapshot's slots store. With a snapshot of all slots the field goes on as the
-    /// snapshot's field would, from its frame and with its rays, where both have one FieldDesc; with one of fewer, from
-    /// the later of both frames. Events that were announced are forgotten. Excludes queries, as an update does. Errors:
-    /// invalidArgument (a snapshot of other volumes or maps, or of contents that no field stores), outOfMemory; of a
-    /// field on a GPU also deviceLost. The probes are then as they were.
+    /// Replaces what the probes of the snapshot's slots store. A snapshot of all slots, from a field with an equal
+    /// FieldDesc, resumes that field exactly: same place, same frame, same rays; pending events are discarded. After
+    /// one of fewer, frame() is the later of both. Excludes queries, as an update does. Errors: invalidArgument (a
+    /// snapshot of other volumes or maps, or of contents that no field stores), outOfMemory; of a field on a GPU also
+    /// deviceLost. The probes are then as they were.
     Result<void> write(const FieldSnapshot& snapshot);
 
     struct Impl;
@@ -123,7 +125,7 @@ private:
     std::unique_ptr<Impl> m_impl;
 };
 
-/// How the automatic grid is laid.
+/// Parameters of automatic placement.
 struct PlacementDesc {
     glm::ivec3 counts{0};      ///< probes per axis; 0: from the scene's size
     int targetProbes = 8192;   ///< about how many where counts is 0, 8..2^24

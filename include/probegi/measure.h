@@ -23,7 +23,7 @@ struct Percentiles {
     double high = 0;    ///< 95th
 };
 
-/// Linear between neighbours; all 0 of nothing. The values must be finite.
+/// Linear between neighbours; all 0 for an empty list. The values must be finite.
 PROBEGI_API Percentiles percentiles(std::vector<double> values);
 
 // ---- Pictures
@@ -186,7 +186,7 @@ struct ProbeTruth {
 PROBEGI_API Result<ProbeTruth> traceProbeTruth(const Tracer& tracer, const PathTracer& pathTracer,
                                                const VolumeDesc& grid, int maxProbes, int samples, bool diffuseOnly);
 
-/// Field over truth, probe by probe; the truth's grid must be the field's first volume. 1 is right.
+/// Field over truth, probe by probe; the truth's grid must be the field's first volume as it stands. 1 is right.
 PROBEGI_API std::vector<double> probeRatios(const FieldSnapshot& snapshot, const ProbeTruth& truth);
 
 // ---- A field in motion

@@ -22,9 +22,9 @@ struct SlotRange {
 
 /// What a probe keeps from update to update besides its maps.
 struct ProbeState {
-    /// Share of its rays' hits that were on backs and speak for solid matter, 0..1; above 0.3 the probe stands in a
-    /// wall and is not used. Backs of surfaces with two sides do not count while a free line leads from the probe, by
-    /// way of its neighbours, to one that sees fronts.
+    /// Share of its rays' hits that were on backs and indicate solid geometry, 0..1; above 0.3 the probe stands in a
+    /// wall and is not used; 2: it has entered its volume and awaits its first update. Backs of surfaces with two sides
+    /// do not count while a free line leads from the probe, by way of its neighbours, to one that sees fronts.
     float backfaceShare = 0;
     float backs = 0;              ///< share of its rays that hit backs, whatever the material, 0..1
     float fronts = 0;             ///< share of its rays that hit fronts, 0..1
@@ -37,14 +37,15 @@ struct ProbeState {
     bool operator==(const ProbeState&) const = default;
 };
 
-/// Some or all probes of a field as they are stored, to look at, to keep, or to give to a field that is made alike. All
-/// backends store the same formats, so a field of one can be written with a snapshot of another. Made by Field::read().
+/// Some or all probes of a field as they are stored, to look at, to keep, or to give to a field with the same volumes
+/// and maps. All backends store the same formats, so a field of one can be written with a snapshot of another. Made by
+/// Field::read().
 struct PROBEGI_API FieldSnapshot {
     FieldDesc desc;                    ///< of the field
     int frame = 0;                     ///< FieldControl::frame()
     int rayTurns = 0;                  ///< how often the rays were turned: below `frame` after Field::converge()
-    std::vector<glm::ivec3> scrolled;  ///< by volume: how far its window was scrolled, cells
-    SlotRange slots;                   ///< that it holds
+    std::vector<glm::ivec3> scrolled;  ///< per volume: how far its window was scrolled, cells
+    SlotRange slots;                   ///< stored here
     /// Half floats, encoded (E / pi)^(1/5): [slot][texel][rgb], rows of the octahedral map from the top, no border.
     std::vector<std::uint16_t> irradiance;
     /// Mean (low 16 bits) and mean square (high 16 bits) of distance / visibilityRange(), unorm: [slot][texel].
@@ -53,6 +54,9 @@ struct PROBEGI_API FieldSnapshot {
 
     /// Of the probe in slot `slot`, which must be one of `slots`.
     const ProbeState& state(int slot) const noexcept { return states[std::size_t(slot - slots.first)]; }
+    /// Slot of the probe with a number (VolumeDesc) in a volume as it stood: they differ once the volume has scrolled.
+    /// Unchecked.
+    int slotOf(int volume, int number) const noexcept;
     /// E in W m^-2 for a surface facing the unit vector `normal` at the probe itself. Unchecked.
     glm::vec3 probeIrradiance(int slot, glm::vec3 normal) const noexcept;
     /// Mean and mean square of the distance to what the probe sees along a unit vector, metres and square metres.

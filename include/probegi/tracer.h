@@ -63,7 +63,7 @@ public:
                                           std::span<Surface> out) const {
         return surfaces(rays, hits, out);
     }
-    /// Of everything that can be hit.
+    /// World-space bounds of all that can be hit.
     virtual Bounds bounds() const = 0;
     /// The emitters to sample (FieldDesc::emitterSamples); null: none known. Valid as long as the tracer.
     virtual const EmitterSet* emitters() const { return nullptr; }

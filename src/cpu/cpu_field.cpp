@@ -162,7 +162,7 @@ Result<void> CpuField::enter(const FieldSettings&, int volume, glm::ivec3 cells)
             clear(m_storage.visibility, slot, m_layout.visibilityTexels);
             m_storage.filters[slot] = kernels::newFilter();
             m_storage.sides[slot] = kernels::noSides();
-            m_storage.backfaceShare[slot] = 1.0f;  // until its first update no look-up uses it
+            m_storage.backfaceShare[slot] = kernels::kNeverUpdated;
         }
     });
     return {};

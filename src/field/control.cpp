@@ -22,6 +22,9 @@ float windowOf(float hysteresis) {
     return 1.0f / (1.0f - hysteresis);
 }
 
+// Cells beyond which sums might overflow.
+constexpr int kMostScrolled = 1'000'000'000;
+
 std::uint32_t ditherSeedOf(const FieldDesc& desc, int frame) {
     return kernels::hashCombine(seedOf(desc) ^ 0x6a09e667u, std::uint32_t(frame));
 }
@@ -53,7 +56,7 @@ FieldControl::Impl::Impl(const FieldDesc& d, const FieldSettings& s)
     for (std::uint32_t i = 0; i < fixed; ++i) fixedDirections.push_back(kernels::sphericalFibonacci(i, fixed));
 }
 
-void FieldControl::Impl::turnRays() {
+void FieldControl::Impl::turnRays() noexcept {
     const bool shifted = desc.rules == FieldRules::measured && !averaging;
     const std::uint32_t count = std::uint32_t(directions.size()), number = std::uint32_t(frame);
     const glm::mat3 rotation = kernels::frameRotation(seedOf(desc), shifted ? 0u : number);
@@ -131,41 +134,50 @@ void FieldControl::Impl::describe(FieldSnapshot& snapshot) const noexcept {
     snapshot.scrolled = scrolled;
 }
 
-void FieldControl::Impl::placeVolumes(std::vector<glm::ivec3> cells) {
-    std::vector<kernels::Volume> placed = makeVolumes(desc, cells);
-    for (ProbeTask& task : tasks) task.origin = positionOf(placed[task.volume], int(task.slot));
-    volumes = std::move(placed);
-    scrolled = std::move(cells);
+Result<FieldControl::Impl::Placement> FieldControl::Impl::placedAt(std::vector<glm::ivec3> cells) const {
+    if (averaging) return fail(ErrorCode::invalidArgument, "a field cannot be moved or written while it converges");
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        if (auto ok = validateVolumePlace(sentence("volumes[", i, "]"), scrolledVolume(desc.volumes[i], cells[i])); !ok)
+            return ok.error();
+    Placement placed{std::move(cells), {}, tasks};
+    placed.volumes = makeVolumes(desc, placed.scrolled);
+    for (ProbeTask& task : placed.tasks) task.origin = positionOf(placed.volumes[task.volume], int(task.slot));
+    return placed;
 }
 
-Result<void> FieldControl::Impl::scroll(int volume, glm::ivec3 cells) {
-    constexpr int kFarthest = 1'000'000'000;
+Result<FieldControl::Impl::Placement> FieldControl::Impl::scrolledBy(int volume, glm::ivec3 cells) const {
     if (volume < 0 || std::size_t(volume) >= desc.volumes.size())
         return fail(ErrorCode::invalidArgument,
                     sentence("there is no volume ", volume, "; the field has ", desc.volumes.size()));
     std::vector<glm::ivec3> moved = scrolled;
     for (int axis = 0; axis < 3; ++axis) {
         const std::int64_t sum = std::int64_t(moved[std::size_t(volume)][axis]) + cells[axis];
-        if (std::abs(sum) > kFarthest)
+        if (std::abs(sum) > kMostScrolled)
             return fail(ErrorCode::invalidArgument,
-                        sentence("a volume can be scrolled by ", kFarthest, " cells from where it was made"));
+                        sentence("a volume can be scrolled by ", kMostScrolled, " cells from where it was made"));
         moved[std::size_t(volume)][axis] = int(sum);
     }
-    placeVolumes(std::move(moved));
-    return {};
+    return placedAt(std::move(moved));
 }
 
-Result<void> FieldControl::Impl::accepts(const FieldSnapshot& snapshot) const {
-    if (snapshot.slots.count == probeCount(desc) || snapshot.scrolled == scrolled) return {};
-    return fail(ErrorCode::invalidArgument,
-                "the snapshot's volumes were scrolled elsewhere; scroll the field's alike, or write all slots");
-}
-
-void FieldControl::Impl::goOnFrom(const FieldSnapshot& snapshot) {
-    events = {};
+Result<FieldControl::Impl::Placement> FieldControl::Impl::placementOf(const FieldSnapshot& snapshot) const {
     const bool whole = snapshot.slots.count == probeCount(desc);
-    if (whole) placeVolumes(snapshot.scrolled);
-    if (!whole && snapshot.frame <= frame) return;
+    if (!whole && snapshot.slots.count > 0 && snapshot.scrolled != scrolled)
+        return fail(ErrorCode::invalidArgument,
+                    "the snapshot's volumes were scrolled elsewhere; scroll the field's alike, or write all slots");
+    return placedAt(whole ? snapshot.scrolled : scrolled);
+}
+
+void FieldControl::Impl::swapPlacement(Placement& other) noexcept {
+    scrolled.swap(other.scrolled);
+    volumes.swap(other.volumes);
+    tasks.swap(other.tasks);
+}
+
+void FieldControl::Impl::goOnFrom(const FieldSnapshot& snapshot) noexcept {
+    const bool whole = snapshot.slots.count == probeCount(desc);
+    if (whole) events = {};
+    if (!whole && (snapshot.slots.count == 0 || snapshot.frame <= frame)) return;
     frame = snapshot.frame;
     turns = snapshot.rayTurns;
     turnRays();

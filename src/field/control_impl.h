@@ -31,16 +31,25 @@ struct FieldControl::Impl {
     void restart();
     /// Fills in what a snapshot says of the books.
     void describe(FieldSnapshot& snapshot) const noexcept;
-    /// Whether a snapshot of some slots stands where the field does. Errors: invalidArgument.
-    Result<void> accepts(const FieldSnapshot& snapshot) const;
     /// After the probes were written: Field::write.
-    void goOnFrom(const FieldSnapshot& snapshot);
+    void goOnFrom(const FieldSnapshot& snapshot) noexcept;
     std::size_t bytes() const noexcept;
     std::size_t rayCount() const noexcept { return tasks.size() * directions.size(); }
     std::size_t fixedRayCount() const noexcept { return tasks.size() * fixedDirections.size(); }
 
-    /// Moves a volume's window: its place, the phase of its slots, the origins of tasks. Errors: invalidArgument.
-    Result<void> scroll(int volume, glm::ivec3 cells);
+    /// Where the volumes stand, and what follows from it.
+    struct Placement {
+        std::vector<glm::ivec3> scrolled;      // by volume, cells
+        std::vector<kernels::Volume> volumes;  // as they stand
+        std::vector<ProbeTask> tasks;
+    };
+    /// The placement after a volume was scrolled by so many cells more. Errors: invalidArgument (no such volume, too
+    /// far away, in the middle of an average).
+    Result<Placement> scrolledBy(int volume, glm::ivec3 cells) const;
+    /// The placement of a snapshot's field. Errors: invalidArgument.
+    Result<Placement> placementOf(const FieldSnapshot& snapshot) const;
+    /// Exchanges the placement with another one.
+    void swapPlacement(Placement& other) noexcept;
 
     FieldDesc desc;
     FieldSettings settings;
@@ -56,8 +65,8 @@ struct FieldControl::Impl {
     bool averaging = false;
 
 private:
-    void turnRays();
-    void placeVolumes(std::vector<glm::ivec3> cells);
+    void turnRays() noexcept;
+    Result<Placement> placedAt(std::vector<glm::ivec3> cells) const;
 };
 
 /// A field's probes, in the order of their slots.

@@ -14,6 +14,7 @@ namespace probegi {
 
 namespace {
 
+constexpr const char* kNoScrollMemory = "no memory to scroll a volume";
 constexpr const char* kNoRayDataMemory = "no memory for the update's ray data; use fewer probes or rays";
 
 // All probes take part in an average, whatever the tasks of updates are.
@@ -63,6 +64,16 @@ struct Field::Impl {
         if (!light) return light.error();
         convergence.advance(light->brightness, light->backfaceShares);
         return {};
+    }
+
+    void swapPlacement(FieldControl::Impl::Placement& other) noexcept {
+        books().swapPlacement(other);
+        backend->place(books().volumes);
+    }
+    Result<void> enter(int volume, glm::ivec3 cells) try {
+        return backend->enter(control.settings(), volume, cells);
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::outOfMemory, kNoScrollMemory);
     }
 
     static Field make(std::unique_ptr<Impl> impl) { return Field(std::move(impl)); }
@@ -168,11 +179,14 @@ Result<void> Field::irradiance(std::span<const FieldQuery> queries, std::span<gl
 
 Result<void> Field::scroll(int volume, glm::ivec3 cells) try {
     Impl& m = *m_impl;
-    if (auto moved = m.books().scroll(volume, cells); !moved) return moved;
-    m.backend->place(m.books().volumes);
-    return m.backend->enter(m.control.settings(), volume, cells);
+    auto placement = m.books().scrolledBy(volume, cells);
+    if (!placement) return placement.error();
+    m.swapPlacement(*placement);
+    auto entered = m.enter(volume, cells);
+    if (!entered) m.swapPlacement(*placement);
+    return entered;
 } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::outOfMemory, "no memory to scroll a volume");
+    return fail(ErrorCode::outOfMemory, kNoScrollMemory);
 }
 
 Result<FieldSnapshot> Field::read() const {
@@ -191,10 +205,11 @@ Result<FieldSnapshot> Field::read(SlotRange slots) const try {
 Result<void> Field::write(const FieldSnapshot& snapshot) try {
     if (auto ok = validateSnapshot(desc(), snapshot); !ok) return ok;
     Impl& m = *m_impl;
-    if (auto ok = m.books().accepts(snapshot); !ok) return ok;
+    auto placement = m.books().placementOf(snapshot);
+    if (!placement) return placement.error();
     if (auto written = m.backend->write(snapshot); !written) return written;
     m.books().goOnFrom(snapshot);
-    m.backend->place(m.books().volumes);
+    m.swapPlacement(*placement);
     return {};
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, "no memory to write the snapshot");

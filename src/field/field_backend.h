@@ -33,7 +33,9 @@ public:
 
     /// The volumes stand elsewhere from now on: slots keep what they hold.
     virtual void place(std::span<const kernels::Volume> volumes) noexcept = 0;
-    /// After place(): what the slots of a volume hold whose probes entered with this step is new (Field::scroll).
+    /// After place(): the probes that entered a volume with this step (kernels::hasEntered) are new (Field::scroll):
+    /// their backface share is kernels::kNeverUpdated, and all else of them 0. An update keeps nothing of a probe that
+    /// has had none before, whatever the frame's hysteresis.
     virtual Result<void> enter(const FieldSettings& settings, int volume, glm::ivec3 cells) = 0;
 
     /// The slots and the snapshot were checked.

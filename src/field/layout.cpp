@@ -1,6 +1,7 @@
 #include "field/layout.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -21,12 +22,19 @@ std::size_t volumeOf(std::span<const kernels::Volume> volumes, int slot) {
 glm::ivec3 cellsToCentre(const VolumeDesc& volume, glm::vec3 point) noexcept {
     const glm::vec3 inVolume = glm::conjugate(volume.orientation) * (point - volume.origin);
     // Down from the half, so that a point on the seam of two cells moves the window once only.
-    return glm::ivec3(glm::floor(inVolume / volume.spacing - 0.5f * glm::vec3(volume.counts - 1) + 0.5f));
+    const glm::vec3 cells = glm::floor(inVolume / volume.spacing - 0.5f * glm::vec3(volume.counts - 1) + 0.5f);
+    constexpr float kFar = 1e9f;
+    glm::ivec3 result(0);
+    for (int axis = 0; axis < 3; ++axis)
+        if (!std::isnan(cells[axis])) result[axis] = int(std::clamp(cells[axis], -kFar, kFar));
+    return result;
 }
 
 VolumeDesc scrolledVolume(const VolumeDesc& volume, glm::ivec3 cells) {
     VolumeDesc moved = volume;
-    moved.origin += volume.orientation * (glm::vec3(cells) * volume.spacing);
+    // In double: a window may go far, and come back to the same place.
+    const glm::dvec3 way = glm::dquat(volume.orientation) * (glm::dvec3(cells) * glm::dvec3(volume.spacing));
+    moved.origin = glm::vec3(glm::dvec3(volume.origin) + way);
     return moved;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "kernels/volume/volume.h"
@@ -46,5 +47,7 @@ std::size_t volumeOf(std::span<const kernels::Volume> volumes, int slot);
 /// Check every member. Errors: invalidArgument.
 Result<void> validateFieldDesc(const FieldDesc& desc);
 Result<void> validateFieldSettings(const FieldSettings& settings);
+/// Whether coordinates are fine enough where the volume stands. Errors: invalidArgument, with the volume's `name`.
+Result<void> validateVolumePlace(const std::string& name, const VolumeDesc& volume);
 
 }  // namespace probegi

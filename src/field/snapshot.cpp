@@ -14,6 +14,7 @@ namespace probegi {
 namespace {
 
 constexpr std::uint16_t kInfiniteHalf = 0x7c00;
+constexpr int kLastFrame = 1 << 30;  // far from where counting would overflow
 
 // Bilinear in an octahedral map: between the four texels around a direction, border resolved.
 template <class Texel>
@@ -36,8 +37,8 @@ bool isShare(float x) {
 // A filter's words are pairs of halves, finite and not negative; one of them is stored plus one.
 bool storable(const ProbeState& state) {
     const auto half = [](std::uint32_t h) { return (h & 0xffffu) <= kInfiniteHalf; };
-    return isShare(state.backfaceShare) && isShare(state.backs) && isShare(state.fronts) &&
-           state.steps <= kernels::kNoWayOut && state.nextSteps <= kernels::kNoWayOut &&
+    return (isShare(state.backfaceShare) || state.backfaceShare == kernels::kNeverUpdated) && isShare(state.backs) &&
+           isShare(state.fronts) && state.steps <= kernels::kNoWayOut && state.nextSteps <= kernels::kNoWayOut &&
            state.trust <= kernels::kMostTrust &&
            std::all_of(state.filter.begin(), state.filter.end(),
                        [&](std::uint32_t word) { return half(word) && half(word >> 16); });
@@ -97,7 +98,11 @@ Result<void> validateSnapshot(const FieldDesc& desc, const FieldSnapshot& snapsh
         return fail(ErrorCode::invalidArgument,
                     sentence("the snapshot says of ", snapshot.scrolled.size(),
                              " volumes how far they were scrolled; it has ", desc.volumes.size()));
-    if (snapshot.frame < 0 || snapshot.rayTurns < 0 || snapshot.rayTurns > snapshot.frame)
+    for (const glm::ivec3& cells : snapshot.scrolled)
+        if (glm::any(glm::greaterThan(glm::abs(glm::dvec3(cells)), glm::dvec3(1e9))))
+            return fail(ErrorCode::invalidArgument, "the snapshot's volumes were scrolled too far");
+    if (snapshot.frame < 0 || snapshot.frame > kLastFrame || snapshot.rayTurns < 0 ||
+        snapshot.rayTurns > snapshot.frame)
         return fail(ErrorCode::invalidArgument, sentence("the snapshot cannot be of frame ", snapshot.frame, " after ",
                                                          snapshot.rayTurns, " turns of the rays"));
     if (!std::all_of(snapshot.irradiance.begin(), snapshot.irradiance.end(),
@@ -126,6 +131,16 @@ kernels::PackedProbeFilter filterOf(const ProbeState& state) noexcept {
     kernels::PackedProbeFilter packed;
     std::copy(state.filter.begin(), state.filter.end(), packed.words);
     return packed;
+}
+
+int FieldSnapshot::slotOf(int volume, int number) const noexcept {
+    int first = 0;
+    for (int i = 0; i < volume; ++i) first += probeCount(desc.volumes[std::size_t(i)]);
+    const glm::ivec3& counts = desc.volumes[std::size_t(volume)].counts;
+    const glm::ivec3 cell(number % counts.x, number / counts.x % counts.y, number / (counts.x * counts.y));
+    // GLM's remainder has the sign of the dividend.
+    const glm::ivec3 place = ((cell + scrolled[std::size_t(volume)]) % counts + counts) % counts;
+    return first + place.x + counts.x * (place.y + counts.y * place.z);
 }
 
 glm::vec3 FieldSnapshot::probeIrradiance(int slot, glm::vec3 normal) const noexcept {

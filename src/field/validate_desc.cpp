@@ -22,22 +22,6 @@ Result<void> checkMapSize(const char* name, int size, int highest) {
     return fail(ErrorCode::invalidArgument, sentence(name, " is ", size, "; it must be even"));
 }
 
-/// Rays leave a surface from a little beside it, as far as coordinates are rounded there; that must be little for the
-/// probes too, or their light is lost.
-Result<void> checkDistance(const std::string& name, const VolumeDesc& volume) {
-    constexpr float kMostOfSpacing = 0.25f;
-    glm::vec3 corner(0.0f);
-    const int last = probeCount(volume) - 1, x = volume.counts.x - 1, y = volume.counts.x * (volume.counts.y - 1);
-    for (const int probe : {0, x, y, x + y, last, last - x, last - y, last - x - y})
-        corner = glm::max(corner, glm::abs(probePosition(volume, probe)));
-    const float closest = std::min({volume.spacing.x, volume.spacing.y, volume.spacing.z});
-    if (kernels::rayOffset(corner, 0.0f) <= kMostOfSpacing * closest) return {};
-    return fail(ErrorCode::invalidArgument,
-                sentence(name, " reaches ", std::max({corner.x, corner.y, corner.z}),
-                         " m from the origin, where coordinates are too coarse for probes ", closest,
-                         " m apart; move the scene to the origin, or increase the spacing"));
-}
-
 Result<void> checkOrientation(const std::string& name, const glm::quat& q) {
     constexpr float kTolerance = 1e-5f;
     const float square = glm::dot(q, q);
@@ -53,7 +37,7 @@ Result<void> checkVolume(const std::string& name, const VolumeDesc& volume) {
             return ok;
         if (auto ok = checkRange(name + ".counts", volume.counts[axis], 2, 1024); !ok) return ok;
     }
-    return checkOrientation(name, volume.orientation).and_then([&] { return checkDistance(name, volume); });
+    return checkOrientation(name, volume.orientation).and_then([&] { return validateVolumePlace(name, volume); });
 }
 
 Result<void> checkVolumes(const std::vector<VolumeDesc>& volumes) {
@@ -68,6 +52,22 @@ Result<void> checkVolumes(const std::vector<VolumeDesc>& volumes) {
 }
 
 }  // namespace
+
+// Rays leave a surface from a little beside it, as far as coordinates are rounded there; that must be little for the
+// probes too, or their light is lost.
+Result<void> validateVolumePlace(const std::string& name, const VolumeDesc& volume) {
+    constexpr float kMostOfSpacing = 0.25f;
+    glm::vec3 corner(0.0f);
+    const int last = probeCount(volume) - 1, x = volume.counts.x - 1, y = volume.counts.x * (volume.counts.y - 1);
+    for (const int probe : {0, x, y, x + y, last, last - x, last - y, last - x - y})
+        corner = glm::max(corner, glm::abs(probePosition(volume, probe)));
+    const float closest = std::min({volume.spacing.x, volume.spacing.y, volume.spacing.z});
+    if (kernels::rayOffset(corner, 0.0f) <= kMostOfSpacing * closest) return {};
+    return fail(ErrorCode::invalidArgument,
+                sentence(name, " reaches ", std::max({corner.x, corner.y, corner.z}),
+                         " m from the origin, where coordinates are too coarse for probes ", closest,
+                         " m apart; move the scene to the origin, or increase the spacing"));
+}
 
 Result<void> validateFieldDesc(const FieldDesc& d) {
     return checkVolumes(d.volumes)

@@ -20,8 +20,8 @@ Result<void> validatePictureDesc(const PictureDesc& desc) {
 }
 
 Picture emptyPicture(int width, int height) {
-    const HdrImage empty(width, height);
-    return {empty, empty, empty, empty, empty, empty, empty};
+    const auto layer = [=] { return HdrImage(width, height); };
+    return {layer(), layer(), layer(), layer(), layer(), layer(), layer()};
 }
 
 Error pictureDoesNotFit(const PictureDesc& desc) {

@@ -118,7 +118,8 @@ std::vector<double> probeRatios(const FieldSnapshot& snapshot, const ProbeTruth&
     std::vector<double> ratios;
     for (const ProbeTruth::Probe& probe : truth.probes) {
         double irradiance = 0;
-        for (const glm::vec3& axis : kAxes) irradiance += luminance(snapshot.probeIrradiance(probe.index, axis));
+        for (const glm::vec3& axis : kAxes)
+            irradiance += luminance(snapshot.probeIrradiance(snapshot.slotOf(0, probe.index), axis));
         ratios.push_back(irradiance / probe.irradiance);
     }
     return ratios;

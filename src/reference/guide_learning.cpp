@@ -209,7 +209,7 @@ void expectLevels(const GuideLessons& lessons, std::span<const Moments> found, P
 Result<PathGuide> learnGuide(const Context& context, const Transport& transport, const Field& field,
                              std::vector<GuideReceiver> first, std::uint64_t seed) {
     // Its regions are those of the first volume; where it ends, its outermost ones stand for what is beyond.
-    const VolumeDesc& grid = field.desc().volumes.front();
+    const VolumeDesc grid = field.control().place(0);
     PathGuide guide(grid);
     const auto lessons = takeLessons(context, transport, field, guide, std::move(first), seed);
     if (!lessons) return lessons.error();

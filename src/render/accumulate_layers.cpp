@@ -25,7 +25,8 @@ void add(const ScreenSample& sample, kernels::PixelLayers& sums) {
     if (sample.kind == kSampleSky)
         kernels::addSky(sums, sample.direct);
     else
-        kernels::addSurface(sums, sample.direct, sample.indirect, sample.albedo, sample.shadingNormal, sample.distance);
+        kernels::addSurface(sums, sample.direct, sample.irradiance, sample.albedo, sample.shadingNormal,
+                            sample.distance);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ Result<void> queryField(PictureTask& task, const PixelRect& part, Frame& frame) 
     });
     irradiance.resize(queries.size());
     if (auto asked = task.field->irradiance(queries, irradiance); !asked) return asked;
-    for (std::size_t i = 0; i < lit.size(); ++i) lit[i]->indirect = irradiance[i];
+    for (std::size_t i = 0; i < lit.size(); ++i) lit[i]->irradiance = irradiance[i];
     return {};
 }
 

@@ -27,7 +27,9 @@ public:
         m_planes = planes;
         const std::size_t bytes = rect.pixels() * std::size_t(planes) * sizeof(ScreenSample);
         if (bytes <= m_bytes) return;
+        // Nothing is kept meanwhile: if this throws, the frame is empty.
         m_storage = nullptr;
+        m_bytes = 0;
         m_storage = std::make_unique_for_overwrite<std::byte[]>(bytes);
         m_bytes = bytes;
     }

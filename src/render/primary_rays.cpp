@@ -56,7 +56,7 @@ Result<void> castPrimary(PictureTask& task, const PixelRect& part, Frame& frame)
     std::size_t i = 0;
     forEachSample(part, frame, [&](ScreenSample& sample) {
         sample.viewDirection = rays[i].direction;
-        sample.indirect = glm::vec3(0.0f);
+        sample.irradiance = glm::vec3(0.0f);
         if (hits[i].valid())
             showSurface(sample, hits[i].distance, surfaces[i]);
         else

@@ -53,7 +53,7 @@ protected:
     static bool isNewProbe(const Field& field, const ProbeTask& task) {
         const FieldSnapshot probe = readProbe(field, int(task.slot));
         ProbeState fresh;
-        fresh.backfaceShare = 1.0f;
+        fresh.backfaceShare = 2.0f;
         return probe.states[0] == fresh && std::ranges::count(probe.irradiance, 0) == 3 * 64 &&
                std::ranges::count(probe.visibility, 0u) == 256;
     }
@@ -142,18 +142,61 @@ TEST_P(BackendScroll, afterATeleportAFieldIsOneMadeInPlace) {
 
 // A camera that walks: no look-up darkens where the window's edge has just moved.
 TEST_P(BackendScroll, newProbesAreNotUsedBeforeTheirUpdate) {
-    Field field = makeField(setupOf(small, FieldRules::measured));
-    std::vector<RayDatum> data(field.control().tasks().size() * 24, {glm::vec3(1.0f), 50.0f});
-    ASSERT_TRUE(field.update(data));
-    for (int i = 0; i < 5; ++i) {
-        ASSERT_TRUE(field.scroll(0, {1, 0, i % 2 == 0 ? 1 : -1}));
-        const VolumeDesc place = field.control().place(0);
-        // Across the seam: four probes of the cage are old, four are new.
-        const glm::vec3 at = place.origin + (glm::vec3(place.counts - 1) - glm::vec3(0.6f, 1, 1.5f)) * place.spacing;
-        EXPECT_NEAR(field.irradiance({at, {0, 1, 0}, {0, 1, 0}}).x, kPi, 0.02f * kPi) << i;
-        ASSERT_TRUE(field.update(data));
-        EXPECT_NEAR(field.irradiance({at, {0, 1, 0}, {0, 1, 0}}).x, kPi, 0.02f * kPi) << i;
+    for (const FieldRules rules : {FieldRules::measured, FieldRules::paper})
+        for (const LeakGuard guard : {LeakGuard::moments, LeakGuard::none}) {
+            FieldSetup setup = setupOf(small, rules);
+            setup.guard = guard;
+            Field field = makeField(setup);
+            std::vector<RayDatum> data(field.control().tasks().size() * 24, {glm::vec3(1.0f), 50.0f});
+            ASSERT_TRUE(field.update(data));
+            for (int i = 0; i < 5; ++i) {
+                ASSERT_TRUE(field.scroll(0, {1, 0, i % 2 == 0 ? 1 : -1}));
+                const VolumeDesc place = field.control().place(0);
+                // Across the seam: some probes of the cage are old, some are new.
+                const glm::vec3 at =
+                    place.origin + (glm::vec3(place.counts - 1) - glm::vec3(0.6f, 1, 1.5f)) * place.spacing;
+                EXPECT_NEAR(field.irradiance({at, {0, 1, 0}, {0, 1, 0}}).x, kPi, 0.02f * kPi) << i;
+                ASSERT_TRUE(field.update(data));
+                EXPECT_NEAR(field.irradiance({at, {0, 1, 0}, {0, 1, 0}}).x, kPi, 0.02f * kPi) << i;
+            }
+            ASSERT_TRUE(field.scroll(0, {100, 0, 0}));
+            const glm::vec3 middle = field.control().place(0).origin + glm::vec3(1, 0.7f, 0.9f);
+            EXPECT_EQ(field.irradiance({middle, {0, 1, 0}, {0, 1, 0}}), glm::vec3(0.0f)) << "nothing is known there";
+        }
+}
+
+// Traced updates before and after, so that all which is kept between updates must go along: tasks, constants, phases.
+TEST_P(BackendScroll, tracedUpdatesGoOnWhereTheWindowIs) {
+    const Scene scene = richScene();
+    const ScenePose pose = poseAt(scene);
+    const Lighting lighting{pose.lights, scene.sky};
+    const auto tracer = makeTracer(scene, pose), cpuTracer = made(kCpu.makeTracer(context, scene, pose));
+    FieldSetup setup =
+        setupOf(offTheWalls(placeVolume(pose.bounds, {.counts = {6, 5, 5}}).value()), FieldRules::measured);
+    setup.raysPerProbe = 64;
+    setup.fixedRays = 16;
+    Field field = makeField(setup), reference = made(kCpu.makeField(context, setup));
+    const auto both = [&](const auto& act) { return act(field, *tracer) && act(reference, *cpuTracer); };
+    const auto update = [&](Field& each, const Tracer& with) { return bool(each.update(with, lighting)); };
+    for (const glm::ivec3 cells : {glm::ivec3(0), glm::ivec3(1, 0, -1), glm::ivec3(-2, 1, 0)}) {
+        ASSERT_TRUE(both([&](Field& each, const Tracer&) { return bool(each.scroll(0, cells)); }));
+        ASSERT_TRUE(both(update));
+        ASSERT_TRUE(both(update));
+        double sum = 0, difference = 0;
+        for (int slot = 0; slot < probeCount(setup); ++slot) {
+            const glm::vec3 e = probeIrradiance(field, slot, {0, 1, 0}),
+                            same = probeIrradiance(reference, slot, {0, 1, 0});
+            sum += same.y;
+            difference += std::abs(e.y - same.y);
+            EXPECT_NEAR(probeBackfaceShare(field, slot), probeBackfaceShare(reference, slot), 0.04f) << slot;
+        }
+        EXPECT_LT(difference, 2e-3 * sum);
     }
+    // Converges to the same too, with its regions where the window is.
+    ASSERT_TRUE(both([&](Field& each, const Tracer& with) { return bool(each.converge(with, lighting, 0.3f, 8)); }));
+    const FieldQuery query{pose.bounds.centre(), {0, 1, 0}, {0, 1, 0}};
+    const glm::vec3 e = field.irradiance(query), same = reference.irradiance(query);
+    EXPECT_LT(glm::distance(e, same), 0.01f * glm::length(same));
 }
 
 TEST_P(BackendScroll, aSnapshotRemembersThePlace) {
@@ -199,11 +242,26 @@ TEST_P(BackendScroll, whatCannotBeIsRefused) {
     Field field = makeField(setupOf(small, FieldRules::measured));
     for (const int volume : {-1, 1})
         EXPECT_EQ(field.scroll(volume, {1, 0, 0}).error().code, ErrorCode::invalidArgument);
-    ASSERT_TRUE(field.scroll(0, {1'000'000'000, 0, 0}));
-    EXPECT_EQ(field.scroll(0, {1, 0, 0}).error().code, ErrorCode::invalidArgument);
-    EXPECT_EQ(field.scroll(0, {0, -2147483647 - 1, 0}).error().code, ErrorCode::invalidArgument);
-    EXPECT_TRUE(field.scroll(0, {-1'000'000'000, 0, 0}));
-    EXPECT_EQ(field.control().place(0), small);
+    // Where coordinates are too coarse for the spacing, as create() has it; and beyond what can be counted.
+    for (const int far : {200'000, 1'000'000'000, 2'147'483'647})
+        for (const int way : {far, -far})
+            EXPECT_EQ(field.scroll(0, {0, 0, way}).error().code, ErrorCode::invalidArgument) << way;
+    EXPECT_EQ(field.control().place(0), small) << "where it was";
+    for (int i = 0; i < 20; ++i) ASSERT_TRUE(field.scroll(0, {2'000, -2'000, 500}));
+    ASSERT_TRUE(field.scroll(0, {-40'000, 40'000, -10'000}));
+    EXPECT_EQ(field.control().place(0), small) << "and back, to the bit";
+    // A field that converges stands still.
+    const Scene scene = richScene();
+    const ScenePose pose = poseAt(scene);
+    const auto tracer = makeTracer(scene, pose);
+    const FieldSnapshot before = field.read().value();
+    int asked = 0;
+    ASSERT_TRUE(field.converge(*tracer, {pose.lights, scene.sky}, 0.5f, 4, [&](const UpdateTimes&) {
+        EXPECT_EQ(field.scroll(0, {1, 0, 0}).error().code, ErrorCode::invalidArgument);
+        EXPECT_EQ(field.write(before).error().code, ErrorCode::invalidArgument);
+        ++asked;
+    }));
+    EXPECT_GT(asked, 0);
 }
 
 }  // namespace

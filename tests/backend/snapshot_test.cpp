@@ -134,6 +134,12 @@ TEST_P(BackendSnapshot, whatDoesNotFitIsRefused) {
     refused("visibility has", [](FieldSnapshot& s) { s.visibility.push_back(0); });
     refused("states has", [](FieldSnapshot& s) { s.states.clear(); });
     refused("frame", [](FieldSnapshot& s) { s.rayTurns = s.frame + 1; });
+    refused("frame", [](FieldSnapshot& s) { s.frame = s.rayTurns = -1; });
+    refused("frame", [](FieldSnapshot& s) { s.frame = 2'147'483'647; });
+    refused("how far they were scrolled", [](FieldSnapshot& s) { s.scrolled.clear(); });
+    refused("too far", [](FieldSnapshot& s) { s.scrolled[0].y = -2'147'483'647 - 1; });
+    refused("too coarse", [](FieldSnapshot& s) { s.scrolled[0].z = 900'000'000; });
+    refused("maps", [](FieldSnapshot& s) { s.desc.visibilityTexels = 8; });
     refused("irradiance is not finite", [](FieldSnapshot& s) { s.irradiance[5] = 0x7c00; });
     refused("irradiance is not finite", [](FieldSnapshot& s) { s.irradiance[5] = 0x8001; });
     refused("probe state", [](FieldSnapshot& s) { s.states[3].backfaceShare = std::nanf(""); });
@@ -141,6 +147,7 @@ TEST_P(BackendSnapshot, whatDoesNotFitIsRefused) {
     refused("probe state", [](FieldSnapshot& s) { s.states[3].steps = 256; });
     refused("probe state", [](FieldSnapshot& s) { s.states[3].trust = 17; });
     refused("probe state", [](FieldSnapshot& s) { s.states[3].filter[5] = 0x7e000000u; });
+    refused("probe state", [](FieldSnapshot& s) { s.states[3].filter[0] = 0x7e00u; });
     expectSame(field.read().value(), good);
     for (const SlotRange none :
          {SlotRange{-1, 2}, SlotRange{79, 2}, SlotRange{0, -1}, SlotRange{0x7fffffff, 0x7fffffff}})

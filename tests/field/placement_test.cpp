@@ -45,6 +45,14 @@ TEST(Placement, cellsToCentreBringThePointToTheMiddle) {
             EXPECT_EQ(cellsToCentre(moved, point), glm::ivec3(0));
         }
     }
+    // On the seam of two cells: once, and not back.
+    volume = {.counts = {4, 4, 4}};
+    EXPECT_EQ(cellsToCentre(volume, glm::vec3(2)), glm::ivec3(1));
+    volume.origin = glm::vec3(1);
+    EXPECT_EQ(cellsToCentre(volume, glm::vec3(2)), glm::ivec3(0));
+    EXPECT_EQ(cellsToCentre(volume, {1e30f, -1e30f, 0}).x, 1'000'000'000);
+    EXPECT_EQ(cellsToCentre(volume, {1e30f, -1e30f, 0}).y, -1'000'000'000);
+    EXPECT_EQ(cellsToCentre(volume, glm::vec3(std::numeric_limits<float>::quiet_NaN())), glm::ivec3(0));
 }
 
 TEST(Placement, doesNotDependOnTheScale) {

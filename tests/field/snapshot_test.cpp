@@ -85,6 +85,20 @@ TEST(FieldSnapshot, aStateIsItsParts) {
     EXPECT_EQ(state.filter[7], 107u);
 }
 
+// Numbers count the cells of the window where it stands; slots stay with the places.
+TEST(FieldSnapshot, slotsOfNumbersGoAlongWithScrolling) {
+    FieldSnapshot snapshot = emptySnapshot(twoVolumes(), {0, 20});
+    for (int number = 0; number < 8; ++number) EXPECT_EQ(snapshot.slotOf(0, number), number);
+    for (int number = 0; number < 12; ++number) EXPECT_EQ(snapshot.slotOf(1, number), 8 + number);
+    snapshot.scrolled[1] = {-1, 4, 7};
+    const std::vector<kernels::Volume> volumes = makeVolumes(snapshot.desc, snapshot.scrolled);
+    for (int number = 0; number < 12; ++number) {
+        const glm::ivec3 cell(number % 2, number / 2 % 3, number / 6);
+        EXPECT_EQ(snapshot.slotOf(1, number), kernels::probeSlot(volumes[1], cell)) << number;
+        EXPECT_EQ(kernels::probeNumber(volumes[1], snapshot.slotOf(1, number)), number);
+    }
+}
+
 TEST(FieldSnapshot, slotsThatAreNotThere) {
     const FieldDesc desc = twoVolumes();
     EXPECT_TRUE(validateSlots(desc, {0, 20}));

@@ -294,7 +294,8 @@ TEST(Lookup, neighboursAnswerForACageInWalls) {
     EXPECT_EQ(field.fallbacks, 1);
     field.backs = [](int) { return 1.0f; };
     EXPECT_EQ(irradianceIn(field, v, at, {1, 0, 0}, vec3(0.0f)), vec3(0.0f));
-    EXPECT_TRUE(enoughWeight(0.0f, kRulesPaper));
+    EXPECT_TRUE(enoughWeight(1e-9f, kRulesPaper));
+    EXPECT_FALSE(enoughWeight(0.0f, kRulesPaper)) << "all of the cage is new";
     EXPECT_TRUE(enoughWeight(kDoubtful, kRulesMeasured));
     EXPECT_FALSE(enoughWeight(0.9f * kDoubtful, kRulesMeasured));
 }

@@ -53,6 +53,7 @@ TEST(ProbeQuery, probesInWallsAreNotUsed) {
     EXPECT_FLOAT_EQ(outsideWeight(kInsideShare + 0.5f * kInsideShareEdge, kRulesMeasured), 0.5f);
     EXPECT_FLOAT_EQ(outsideWeight(1.0f, kRulesMeasured), 0.0f);
     EXPECT_EQ(outsideWeight(1.0f, kRulesPaper), 1.0f);
+    for (const int rules : {kRulesPaper, kRulesMeasured}) EXPECT_EQ(outsideWeight(kNeverUpdated, rules), 0.0f);
 }
 
 TEST(ProbeQuery, chebyshevIsOneInFrontAndFollowsItsBoundBehind) {

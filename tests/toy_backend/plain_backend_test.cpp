@@ -96,8 +96,24 @@ TEST_F(ToyBackend, holdsWhatTheLibrarysHolds) {
                 EXPECT_LE(glm::length(e - same), 5e-3f * glm::length(same) + 1e-5f) << probe;  // a step of the storage
                 const glm::vec2 m = own.probeDistanceMoments(probe, n), mSame = wanted.probeDistanceMoments(probe, n);
                 EXPECT_NEAR(m.x, mSame.x, 1e-3f) << probe;
+                EXPECT_NEAR(m.y, mSame.y, 2e-3f) << probe;
             }
         }
+    }
+}
+
+TEST_F(ToyBackend, scrollsAsTheLibraryDoes) {
+    update(2);
+    for (Field* each : {&*field, &*reference}) ASSERT_TRUE(each->scroll(0, {1, -2, 0}));
+    for (const FieldQuery& query : queries())
+        EXPECT_LE(glm::length(field->irradiance(query) - reference->irradiance(query)),
+                  5e-3f * glm::length(reference->irradiance(query)) + 1e-5f);
+    update(2);
+    const FieldSnapshot own = field->read().value(), wanted = reference->read().value();
+    for (int probe = 0; probe < probeCount(desc); ++probe) {
+        EXPECT_NEAR(own.state(probe).backfaceShare, wanted.state(probe).backfaceShare, 1e-5f) << probe;
+        const glm::vec3 e = own.probeIrradiance(probe, {0, 1, 0}), same = wanted.probeIrradiance(probe, {0, 1, 0});
+        EXPECT_LE(glm::length(e - same), 5e-3f * glm::length(same) + 1e-5f) << probe;
     }
 }
 

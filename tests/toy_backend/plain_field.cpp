@@ -56,13 +56,18 @@ struct SnapshotAccess {
 PlainField::PlainField(const Context& context, const FieldDesc& desc)
     : m_context(context), m_volumes(makeVolumes(desc)), m_probes(emptySnapshot(desc, {0, probeCount(desc)})) {}
 
+// A probe that has had no update keeps nothing of what it holds.
+FrameHysteresis PlainField::keptBy(const UpdateFrame& frame, const ProbeTask& task) const {
+    return kernels::isNew(filterOf(m_probes.states[task.slot])) ? FrameHysteresis{0.0f, 0.0f} : frame.hysteresis;
+}
+
 std::uint32_t PlainField::numberOf(const ProbeTask& task) const {
     return std::uint32_t(kernels::probeNumber(m_volumes[task.volume], int(task.slot)));
 }
 
 void PlainField::blendIrradiance(const UpdateFrame& frame, const ProbeTask& task, std::span<const RayDatum> rays) {
     const int size = m_probes.desc.irradianceTexels, texels = size * size;
-    const kernels::BlendRule rule{frame.hysteresis.irradiance, frame.settings.significantChange,
+    const kernels::BlendRule rule{keptBy(frame, task).irradiance, frame.settings.significantChange,
                                   frame.settings.newDistribution};
     for (int t = 0; t < texels; ++t) {
         const glm::vec3 n = kernels::octTexelDirection(t % size, t / size, size);
@@ -101,7 +106,7 @@ void PlainField::blendVisibility(const UpdateFrame& frame, const ProbeTask& task
         }
         std::uint32_t& stored = m_probes.visibility[std::size_t(task.slot) * std::size_t(texels) + std::size_t(t)];
         stored = kernels::blendVisibilityTexel(stored, glm::vec2(sum / std::max(weights, 1e-300)),
-                                               frame.hysteresis.visibility, frame.ditherSeed,
+                                               keptBy(frame, task).visibility, frame.ditherSeed,
                                                numberOf(task) * std::uint32_t(texels) + std::uint32_t(t));
     }
 }
@@ -111,13 +116,14 @@ void PlainField::blendSides(const UpdateFrame& frame, const ProbeTask& task, std
         std::ranges::count_if(rays, [](const RayDatum& d) { return d.distance < kernels::kMissDistance; });
     const auto backs = std::ranges::count_if(rays, [](const RayDatum& d) { return kernels::hitBack(d.distance); });
     float& share = m_probes.states[task.slot].backfaceShare;
-    share = glm::mix(kernels::backfaceShareOf(int(backs), int(hits)), share, frame.hysteresis.visibility);
+    share = glm::mix(kernels::backfaceShareOf(int(backs), int(hits)), share, keptBy(frame, task).visibility);
 }
 
 void PlainField::blend(const UpdateFrame& frame, const ProbeTask& task, std::span<const RayDatum> rays) {
     blendIrradiance(frame, task, rays);
     blendVisibility(frame, task, rays);
     blendSides(frame, task, rays);
+    m_probes.states[task.slot].filter = std::to_array(kernels::forgottenFilter(1.0f).words);  // no longer new
 }
 
 Result<UpdateTimes> PlainField::update(const UpdateFrame& frame, std::span<const RayDatum> rayData,
@@ -177,7 +183,7 @@ void PlainField::place(std::span<const kernels::Volume> volumes) noexcept {
 Result<void> PlainField::enter(const FieldSettings&, int volume, glm::ivec3 cells) {
     const kernels::Volume& v = m_volumes[std::size_t(volume)];
     FieldSnapshot fresh = emptySnapshot(m_probes.desc, {0, 1});
-    fresh.states[0].backfaceShare = 1.0f;
+    fresh.states[0].backfaceShare = kernels::kNeverUpdated;
     for (int slot = v.firstSlot; slot < v.firstSlot + kernels::volumeProbes(v); ++slot) {
         fresh.slots.first = slot;
         if (kernels::hasEntered(v, kernels::probeCell(v, slot), cells)) write(fresh).value();

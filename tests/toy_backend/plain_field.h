@@ -32,6 +32,7 @@ private:
     void blendIrradiance(const UpdateFrame& frame, const ProbeTask& task, std::span<const RayDatum> rays);
     void blendVisibility(const UpdateFrame& frame, const ProbeTask& task, std::span<const RayDatum> rays);
     void blendSides(const UpdateFrame& frame, const ProbeTask& task, std::span<const RayDatum> rays);
+    FrameHysteresis keptBy(const UpdateFrame& frame, const ProbeTask& task) const;
     std::uint32_t numberOf(const ProbeTask& task) const;
 
     Context m_context;

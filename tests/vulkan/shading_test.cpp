@@ -77,9 +77,9 @@ TEST(VulkanShading, samplesOfAnEngineLookLikeTheCpusPicture) {
         const glm::vec3 direct = picture.direct.pixels[i], e = picture.irradiance.pixels[i];
         for (int c = 0; c < 3; ++c) {
             EXPECT_NEAR(got[i].direct[c], direct[c], 1e-3f * (direct[c] + 0.01f)) << "sample " << i;
-            EXPECT_NEAR(got[i].indirect[c], e[c], 6e-3f * (e[c] + 0.01f)) << "sample " << i;
+            EXPECT_NEAR(got[i].irradiance[c], e[c], 6e-3f * (e[c] + 0.01f)) << "sample " << i;
             EXPECT_EQ(unlit[i].direct[c], got[i].direct[c]);
-            EXPECT_EQ(unlit[i].indirect[c], 0.0f);
+            EXPECT_EQ(unlit[i].irradiance[c], 0.0f);
             brightest = std::max(brightest, e[c]);
         }
     }

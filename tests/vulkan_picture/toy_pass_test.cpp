@@ -7,6 +7,7 @@
 #include "render/picture_runner.h"
 #include "support/vulkan_device.h"
 #include "vulkan/device/exchange.h"
+#include "vulkan/field/vulkan_field.h"
 #include "vulkan/picture/gpu_picture.h"
 #include "vulkan/tracers/gpu_tracer.h"
 
@@ -38,17 +39,19 @@ protected:
         desc.width = 70;
         desc.height = 30;
         lighting = {pose.lights, scene.sky};
+        lighting.lights.push_back({.position = pose.bounds.centre(), .intensity = {3, 2, 1}});
+        lights = vulkan::GpuLighting::create(testDevice(), lighting).value();
         vulkan::submitAndWait(
             testDevice(), [&](const vulkan::Recorder& recorder) { lights.recordUpload(recorder.commands()).value(); });
     }
 
     Picture onGpu(const std::vector<vulkan::GpuPass>& passes, std::size_t framePixels = kFramePixels) {
-        return vulkan::runPicture(context, {testDevice(), gpuScene(), lights, nullptr, nullptr, desc}, passes,
+        return vulkan::runPicture(context, {testDevice(), gpuScene(), lights, &field, &fieldPasses(), desc}, passes,
                                   framePixels)
             .picture;
     }
     std::vector<vulkan::GpuPass> gpuPasses(bool toy) {
-        std::vector<vulkan::GpuPass> passes = vulkan::gpuPasses({gpuScene(), nullptr});
+        std::vector<vulkan::GpuPass> passes = vulkan::gpuPasses({gpuScene(), &fieldPasses()});
         if (toy)
             passes.insert(
                 passes.end() - 1,
@@ -61,6 +64,7 @@ protected:
         passes.insert(passes.end() - 1, {.name = "nothing", .shader = {}, .neighbours = true});
         return passes;
     }
+    vulkan::FieldPasses& fieldPasses() { return dynamic_cast<const vulkan::VulkanField&>(backendOf(field)).passes(); }
     const vulkan::GpuScene& gpuScene() { return dynamic_cast<const vulkan::GpuTracer&>(*tracer).scene(); }
 
     Context context = Context::create({.threads = 2}).value();
@@ -70,11 +74,23 @@ protected:
     PictureDesc desc;
     std::unique_ptr<Tracer> tracer = vulkan::makeTracer(context, testDevice(), scene, pose).value();
     vulkan::GpuLighting lights = vulkan::GpuLighting::create(testDevice(), lighting).value();
+    Field field = lit();
+
+    Field lit() {
+        FieldDesc of;
+        of.volumes = {placeVolume(pose.bounds, {.counts = {4, 4, 4}}).value()};
+        Field made = vulkan::makeField(context, testDevice(), of).value();
+        for (int i = 0; i < 3; ++i) made.update(*tracer, {pose.lights, scene.sky}).value();
+        return made;
+    }
 };
 
 void expectEqual(const Picture& a, const Picture& b) {
     EXPECT_EQ(a.color.pixels, b.color.pixels);
     EXPECT_EQ(a.direct.pixels, b.direct.pixels);
+    EXPECT_EQ(a.indirect.pixels, b.indirect.pixels);
+    EXPECT_EQ(a.irradiance.pixels, b.irradiance.pixels);
+    EXPECT_GT(a.indirect.at(35, 15).x, 0.0f);
     EXPECT_EQ(a.albedo.pixels, b.albedo.pixels);
     EXPECT_EQ(a.normal.pixels, b.normal.pixels);
     EXPECT_EQ(a.depth.pixels, b.depth.pixels);

@@ -6,7 +6,7 @@
 
 PROBEGI_SHARED_BEGIN
 
-/// One probe that an update is about.
+/// One probe to update.
 struct ProbeTask {
     PROBEGI_VEC3 origin PROBEGI_DEFAULT(PROBEGI_VEC3(0.0f));  ///< where its rays begin, metres
     PROBEGI_UINT slot PROBEGI_DEFAULT(0);                     ///< of the probe, counted over all volumes
@@ -37,7 +37,7 @@ struct FixedRayDatum {
 struct FieldQuery {
     PROBEGI_VEC3 position PROBEGI_DEFAULT(PROBEGI_VEC3(0.0f));
     PROBEGI_VEC3 normal PROBEGI_DEFAULT(PROBEGI_VEC3(0, 1, 0));  ///< unit
-    /// Unit, omega_o of eq. 2; zero stands for the normal, where nobody looks.
+    /// Unit, omega_o of eq. 2; zero: there is no viewer, and the normal takes its place.
     PROBEGI_VEC3 toViewer PROBEGI_DEFAULT(PROBEGI_VEC3(0.0f));
 };
 

@@ -28,7 +28,7 @@ struct Hit {
 #endif
 };
 
-/// What a hit looks like to light: geometry and material resolved, textures sampled. Normals face the ray's origin.
+/// Shading data of a hit: geometry and material resolved, textures sampled. Normals face the ray's origin.
 /// Not for buffers: a bool has no size in GLSL (src/kernels/abi/gpu_passes.h has GpuSurface).
 struct Surface {
     PROBEGI_VEC3 position PROBEGI_DEFAULT(PROBEGI_VEC3(0.0f));

@@ -1,4 +1,4 @@
-// One entry of a G-buffer, and what light finds there: C++ and GLSL.
+// One entry of a G-buffer, and its lighting: C++ and GLSL.
 #ifndef PROBEGI_SHARED_SCREEN_SAMPLE_H
 #define PROBEGI_SHARED_SCREEN_SAMPLE_H
 
@@ -17,16 +17,16 @@ struct ScreenSample {
     PROBEGI_VEC3 position PROBEGI_DEFAULT(PROBEGI_VEC3(0.0f));  ///< metres, in the world
     PROBEGI_INT kind PROBEGI_DEFAULT(kSampleSky);
     PROBEGI_VEC3 viewDirection PROBEGI_DEFAULT(PROBEGI_VEC3(0, 0, -1));  ///< unit, from the viewer to the position
-    float distance PROBEGI_DEFAULT(0.0f);  ///< metres from the viewer; 0 for the sky; passed through
+    float distance PROBEGI_DEFAULT(0.0f);  ///< metres from the viewer; 0 for the sky; not used by recordShading()
     PROBEGI_VEC3 geometricNormal PROBEGI_DEFAULT(PROBEGI_VEC3(0, 1, 0));  ///< unit, on the viewer's side
     float metallic PROBEGI_DEFAULT(0.0f);                                 ///< 0..1
     PROBEGI_VEC3 shadingNormal PROBEGI_DEFAULT(PROBEGI_VEC3(0, 1, 0));    ///< unit, on the viewer's side
     float roughness PROBEGI_DEFAULT(1.0f);                                ///< 0..1, perceptual
     PROBEGI_VEC3 albedo PROBEGI_DEFAULT(PROBEGI_VEC3(0.0f));              ///< base colour, 0..1
-    /// W sr^-1 m^-2. First emission, or the sky's radiance; then plus the light of punctual lights.
+    /// W sr^-1 m^-2. In: emission, or the sky's radiance. Out: plus the light of punctual lights.
     PROBEGI_VEC3 direct PROBEGI_DEFAULT(PROBEGI_VEC3(0.0f));
-    /// Irradiance E of the field, W m^-2; radiance is albedo * E / pi. First 0.
-    PROBEGI_VEC3 indirect PROBEGI_DEFAULT(PROBEGI_VEC3(0.0f));
+    /// E of the field, W m^-2; indirect radiance is albedo * E / pi. In: 0.
+    PROBEGI_VEC3 irradiance PROBEGI_DEFAULT(PROBEGI_VEC3(0.0f));
 };
 
 #ifdef __cplusplus
@@ -35,7 +35,7 @@ static_assert(sizeof(ScreenSample) == 100 && offsetof(ScreenSample, kind) == 12 
               offsetof(ScreenSample, geometricNormal) == 32 && offsetof(ScreenSample, metallic) == 44 &&
               offsetof(ScreenSample, shadingNormal) == 48 && offsetof(ScreenSample, roughness) == 60 &&
               offsetof(ScreenSample, albedo) == 64 && offsetof(ScreenSample, direct) == 76 &&
-              offsetof(ScreenSample, indirect) == 88);
+              offsetof(ScreenSample, irradiance) == 88);
 #endif
 
 PROBEGI_SHARED_END

@@ -110,7 +110,7 @@ public:
     const FieldDesc& desc() const noexcept { return control().desc(); }
     FieldMemory memory() const noexcept;  ///< of GPU memory
 
-    /// Hands the settings to the shaders that read the field, for engines that change them between updates. Orders
+    /// Uploads the settings for the shaders that read the field, for engines that change them between updates. Orders
     /// itself against what comes before and after in the queue; nothing where nothing has changed. Errors: outOfMemory.
     Result<void> recordSettings(VkCommandBuffer commands);
 

@@ -6,7 +6,7 @@
 /// For programs without a renderer of their own: the CPU backend's API on the GPU. These calls submit and wait.
 namespace probegi::vulkan {
 
-/// All of the below as probegi::Backend has it, on a device that is open. Errors: unsupported (no ray query there).
+/// A Backend on a device that is already open. Errors: unsupported (no ray query there).
 PROBEGI_API Result<std::unique_ptr<Backend>> makeBackend(const Context& context, const Device& device,
                                                          TracerKind tracer = TracerKind::automatic);
 
@@ -17,7 +17,7 @@ PROBEGI_API Result<std::unique_ptr<Tracer>> makeTracer(const Context& context, c
                                                        const ScenePose& pose, const GpuSceneDesc& desc = {});
 
 /// The same for a scene in which things move: setPose() refits the top level on the GPU, and waits. Errors: those, and
-/// invalidArgument (a node that the scene has not).
+/// invalidArgument (no such node in the scene).
 PROBEGI_API Result<std::unique_ptr<MovableTracer>> makeMovableTracer(const Context& context, const Device& device,
                                                                      const Scene& scene, const ScenePose& pose,
                                                                      const MovableDesc& movable = {},
@@ -33,9 +33,9 @@ PROBEGI_API Result<Field> makeField(const Context& context, const Device& device
 /// device has no timestamps.
 PROBEGI_API std::vector<PassTime> lastPassTimes(const Field& field);
 
-/// As probegi::renderPicture, on the GPU: primary rays, direct light with shadow rays, query, resolve. `tracer` must be
-/// from makeTracer() and `field` (may be null) from makeField(), both on this device.
-/// Errors: invalidArgument (size; tracer or field of another backend), outOfMemory, deviceLost, cancelled.
+/// As probegi::renderPicture, on the GPU: primary rays, direct light with shadow rays, query, accumulate. `tracer` must
+/// be from makeTracer() and `field` (may be null) from makeField(), both on this device. Errors: invalidArgument (size;
+/// tracer or field of another backend), outOfMemory, deviceLost, cancelled.
 PROBEGI_API Result<RenderedPicture> renderPicture(const Context& context, const Device& device, const Tracer& tracer,
                                                   const Lighting& lighting, const Field* field,
                                                   const PictureDesc& desc);

@@ -65,8 +65,8 @@ KERNEL_FN LightSample samplePunctual(int type, vec3 lightPos, vec3 lightDir, vec
 }
 
 // Whether a surface point gets the light if nothing is between them. A light behind either normal does not count: the
-// geometric one keeps light from seeping through a surface whose shading normal leans over its edge. Nor does one that
-// is not a number.
+// geometric one keeps light from seeping through a surface whose shading normal leans over its edge. Nor does one whose
+// channels are all not numbers.
 KERNEL_FN bool reachesSurface(LightSample light, vec3 geometricNormal, vec3 shadingNormal) {
     return anyPositive(light.irradianceAtNormal) && dot(light.toLight, shadingNormal) > 0.0f &&
            dot(light.toLight, geometricNormal) > 0.0f;

@@ -8,7 +8,7 @@
 
 KERNELS_BEGIN
 
-// E of the cage's neighbours, W m^-2; black only where all of them stand in walls. `at`: irradiancePoint().
+// E of the cage's neighbours, W m^-2; black only where all of them stand in walls or are new. `at`: irradiancePoint().
 LOOKUP_FN vec3 neighboursIrradiance(IN(Access) access, IN(Volume) v, IN(Cage) cage, OF_ACCESS(MapPoint) at) {
     vec3 sum = vec3(0.0f);
     float weightSum = 0.0f;
@@ -29,9 +29,9 @@ LOOKUP_FN vec3 neighboursIrradiance(IN(Access) access, IN(Volume) v, IN(Cage) ca
     return weightSum > 0.0f ? sum / weightSum : vec3(0.0f);
 }
 
-// Whether the cage's weights are enough for an answer. The paper asks no one else.
+// Whether the cage's weights are enough for an answer. The paper asks no one else, unless all of the cage is new.
 KERNEL_FN bool enoughWeight(float weightSum, int rules) {
-    return rules == kRulesPaper || weightSum >= kDoubtful;
+    return rules == kRulesPaper ? weightSum > 0.0f : weightSum >= kDoubtful;
 }
 
 // E in W m^-2 at a point of a surface that faces `normal`, seen from `toViewer` (both unit; zero stands for the normal,

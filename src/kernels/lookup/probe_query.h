@@ -95,12 +95,16 @@ KERNEL_FN Real crushWeight(Real w) {
     return select(w < kCrushBelow, w * w * w * (1.0f / (kCrushBelow * kCrushBelow)), w);
 }
 
+// Share of backfaces of a probe that has had no update since it entered its volume: look-ups pass it over, whatever the
+// rules.
+KERNEL_CONST float kNeverUpdated = 2.0f;
+
 // How far a probe may be used at all: not when more than a quarter of what it hits are backfaces, since then it stands
 // in a wall or outside the modelled world. Listing 4 draws the line at a quarter of all rays; a share of the hits also
 // finds probes that look at a closed shell from the void around it. A soft edge keeps the answer continuous in time.
 // The paper moves such probes or switches them off; in a query it has no such rule.
 KERNEL_FN Real outsideWeight(Real backfaceShare, int rules) {
-    if (rules == kRulesPaper) return Real(1.0f);
+    if (rules == kRulesPaper) return select(backfaceShare > 1.0f, Real(0.0f), Real(1.0f));
     return max(Real(0.0f), 1.0f - max(Real(0.0f), backfaceShare - kInsideShare) * (1.0f / kInsideShareEdge));
 }
 

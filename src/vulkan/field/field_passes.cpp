@@ -193,8 +193,8 @@ void FieldPasses::recordClear(const Recorder& recorder, const FieldSettings& set
 }
 
 void FieldPasses::recordEnter(const Recorder& recorder, const FieldSettings& settings, int volume, glm::ivec3 cells) {
-    m_device.impl().pipelines->get("enter_volume");  // may fail: before anything is recorded
     recordSettings(recorder, settings);
+    recorder.orderAll();
     recorder.bindVolume(set());
     recorder.push(kernels::EnterPush{.sides = packAddress(m_sides.address()),
                                      .filters = packAddress(m_filters.address()),

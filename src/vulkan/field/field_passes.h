@@ -31,6 +31,8 @@ public:
         std::copy(volumes.begin(), volumes.end(), m_volumes.begin());
         forgetRecorded();
     }
+    /// Compiles what recordEnter() needs, which then cannot fail.
+    void prepareEnter() { m_device.impl().pipelines->get("enter_volume"); }
     /// After place(): FieldBackend::enter().
     void recordEnter(const Recorder& recorder, const FieldSettings& settings, int volume, glm::ivec3 cells);
     /// Clears all probes. From here on, `settings` are what shaders that read the field see.

@@ -55,8 +55,10 @@ Result<void> GpuField::recordClear(VkCommandBuffer commands) {
 }
 
 Result<void> GpuField::recordScroll(VkCommandBuffer commands, int volume, glm::ivec3 cells) {
-    if (auto moved = m_impl->books().scroll(volume, cells); !moved) return moved;
     return m_impl->recorded("recording the scrolling of a volume", [&] {
+        m_impl->passes.prepareEnter();  // whatever can fail comes first: else the books would have moved alone
+        auto placement = orThrow(m_impl->books().scrolledBy(volume, cells));
+        m_impl->books().swapPlacement(placement);
         m_impl->passes.place(m_impl->books().volumes);
         m_impl->passes.recordEnter({m_impl->passes.device().impl(), commands}, m_impl->control.settings(), volume,
                                    cells);

@@ -196,6 +196,7 @@ Result<void> VulkanField::enter(const FieldSettings& settings, int volume, glm::
     const std::lock_guard lock(m_mutex);
     m_mirror.reset();
     return attempted("scrolling a volume", [&] {
+        m_passes.prepareEnter();
         submitAndWait(m_device,
                       [&](const Recorder& recorder) { m_passes.recordEnter(recorder, settings, volume, cells); });
     });

@@ -27,9 +27,9 @@ const Wanted& onDevice(const Device& device, const Given& given, const char* wha
 }
 
 /// The passes of a picture, frame by frame: memory for samples stays bounded.
-class PictureRenderer {
+class PictureRunner {
 public:
-    PictureRenderer(const GpuPicture& picture, std::span<const GpuPass> passes, std::size_t framePixels)
+    PictureRunner(const GpuPicture& picture, std::span<const GpuPass> passes, std::size_t framePixels)
         : m_picture(picture), m_passes(passes), m_exchange(picture.device) {
         const PictureDesc& desc = picture.desc;
         const bool wholeFrames = std::ranges::any_of(passes, &GpuPass::neighbours);
@@ -83,7 +83,10 @@ private:
     void addTimes() {
         for (const PassTime& measured : orThrow(m_profiler->read()))
             for (const GpuPass& pass : m_passes)
-                if (pass.time && measured.name == pass.name) m_times.*pass.time += measured.milliseconds;
+                if (pass.time && measured.name == pass.name) {
+                    m_times.*pass.time += measured.milliseconds;
+                    break;
+                }
     }
 
     void store(Picture& picture, std::size_t pixels) const {
@@ -119,14 +122,14 @@ GpuLighting uploadedLighting(const Device& device, const Lighting& lighting) {
 RenderedPicture runPicture(const Context& context, const GpuPicture& picture, std::span<const GpuPass> passes,
                            std::size_t framePixels) {
     RenderedPicture rendered{emptyPicture(picture.desc.width, picture.desc.height), {}};
-    PictureRenderer renderer(picture, passes, framePixels);
-    Progress progress(context, "rendering", double(renderer.bands()) * renderer.frames());
-    for (int band = 0; band < renderer.bands(); ++band)
-        for (int frame = 0; frame < renderer.frames(); ++frame) {
-            renderer.render(band, frame, rendered.picture);
+    PictureRunner runner(picture, passes, framePixels);
+    Progress progress(context, "rendering", double(runner.bands()) * runner.frames());
+    for (int band = 0; band < runner.bands(); ++band)
+        for (int frame = 0; frame < runner.frames(); ++frame) {
+            runner.render(band, frame, rendered.picture);
             if (!progress.advance()) throw Failure(ErrorCode::cancelled, "rendering was cancelled");
         }
-    rendered.times = renderer.times();
+    rendered.times = runner.times();
     return rendered;
 }
 

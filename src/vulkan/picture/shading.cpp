@@ -12,6 +12,11 @@ void recordPass(const Recorder& recorder, const SceneObjects& objects, const Gpu
     recorder.computeToCompute();
 }
 
+void preparePasses(const SceneObjects& objects, std::span<const GpuPass> passes) {
+    for (const GpuPass& pass : passes)
+        if (pass.shader) objects.scene.impl().device.impl().pipelines->get(*pass.shader);
+}
+
 void bindPasses(const Recorder& recorder, const SceneObjects& objects, const kernels::PicturePush& push) {
     // Sets and constants stay bound through all passes, which share one layout.
     if (objects.volume) recorder.bindVolume(objects.volume->set());
@@ -54,17 +59,20 @@ Result<void> recordShading(VkCommandBuffer commands, const GpuScene& scene, cons
         return fail(ErrorCode::invalidArgument, "scene, lighting and field are not of one device");
     const auto done = guarded("recording shading", [&] {
         const Recorder recorder(device.impl(), commands);
+        const SceneObjects objects{scene, passes};
+        std::vector<GpuPass> chosen;
+        for (const PassInfo& info : kPicturePasses)
+            if (info.pass == PicturePass::direct || info.pass == PicturePass::query)
+                chosen.push_back(gpuPass(info, objects));
+        preparePasses(objects, chosen);
         if (passes) passes->recordSettings(recorder, field->control().settings());
         kernels::PicturePush push{};
         push.samples = packAddress(samples);
         push.lighting = packAddress(lighting.impl().address());
         push.sampleCount = count;
         push.flags = diffuseOnly ? kernels::kPictureDiffuseOnly : 0;
-        const SceneObjects objects{scene, passes};
         bindPasses(recorder, objects, push);
-        for (const PassInfo& info : kPicturePasses)
-            if (info.pass == PicturePass::direct || info.pass == PicturePass::query)
-                recordPass(recorder, objects, gpuPass(info, objects), push, profiler);
+        for (const GpuPass& pass : chosen) recordPass(recorder, objects, pass, push, profiler);
     });
     if (!done && passes) passes->forgetRecorded();
     return done;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "geometry/picture_passes.h"
@@ -30,9 +31,11 @@ GpuPass gpuPass(const PassInfo& info, const SceneObjects& objects);
 /// kPicturePasses on the GPU.
 std::vector<GpuPass> gpuPasses(const SceneObjects& objects);
 
+/// Compiles the passes, so that either all are recorded or none. Throws.
+void preparePasses(const SceneObjects& objects, std::span<const GpuPass> passes);
 /// Before passes, with what they share.
 void bindPasses(const Recorder& recorder, const SceneObjects& objects, const kernels::PicturePush& push);
-/// Ends ordered for compute shaders. Throws.
+/// Ends with a barrier between compute passes. Throws.
 void recordPass(const Recorder& recorder, const SceneObjects& objects, const GpuPass& pass,
                 const kernels::PicturePush& push, Profiler* profiler);
 

@@ -1,5 +1,4 @@
-// Probes that entered a volume with a step of scrolling know nothing: until their first update they count as if they
-// stood in a wall. One thread a probe of the volume.
+// Probes that entered a volume with a step of scrolling know nothing. One thread per probe of the volume.
 #include "filter.glsl"
 #include "sides.glsl"
 #include "volume.glsl"
@@ -14,7 +13,7 @@ void main() {
     if (index >= uint(volumeProbes(volume))) return;
     const int slot = volume.firstSlot + int(index);
     if (!hasEntered(volume, probeCell(volume, slot), push.cells)) return;
-    probegiStates.backfaceShare[slot] = 1.0;
+    probegiStates.backfaceShare[slot] = kNeverUpdated;
     Sides(push.sides).at[slot] = noSides();
     ProbeFilters(push.filters).at[slot] = newFilter();
     const ivec3 tile = poolTile(probegiField.tiles, slot);

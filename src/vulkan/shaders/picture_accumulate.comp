@@ -43,7 +43,7 @@ void main() {
         if (s.kind == kSampleSky)
             addSky(sums, s.direct);
         else
-            addSurface(sums, s.direct, s.indirect, s.albedo, s.shadingNormal, s.distance);
+            addSurface(sums, s.direct, s.irradiance, s.albedo, s.shadingNormal, s.distance);
     }
     const int perPixel = push.samplesPerAxis * push.samplesPerAxis;
     if (push.firstPlane + push.planes == perPixel) sums = meanLayers(sums, perPixel);

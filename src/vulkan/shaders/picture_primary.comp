@@ -23,7 +23,7 @@ void main() {
     const Hit hit = closestHit(ray);
     ScreenSample s;
     s.viewDirection = ray.direction;
-    s.indirect = vec3(0.0);
+    s.irradiance = vec3(0.0);
     if (hit.primitive < 0) {
         s.kind = kSampleSky;
         s.direct = skyRadianceAt(ray.direction);

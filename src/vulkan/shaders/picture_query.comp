@@ -12,5 +12,5 @@ void main() {
     const ScreenSample s = Samples(push.samples).at[index];
     // The back of a wall receives nothing.
     if (s.kind != kSampleSurface) return;
-    Samples(push.samples).at[index].indirect = probegiIrradiance(s.position, s.shadingNormal, -s.viewDirection);
+    Samples(push.samples).at[index].irradiance = probegiIrradiance(s.position, s.shadingNormal, -s.viewDirection);
 }
