@@ -17,7 +17,10 @@ struct Scratch {
 Result<void> queryField(PictureTask& task, const PixelRect& part, Frame& frame) {
     if (!task.field) return {};
     thread_local Scratch scratch;
-    auto& [lit, queries, irradiance] = scratch;
+    // No structured binding: lambdas capture none with clang 14.
+    auto& lit = scratch.lit;
+    auto& queries = scratch.queries;
+    auto& irradiance = scratch.irradiance;
     lit.clear();
     queries.clear();
     forEachSample(part, frame, [&](ScreenSample& sample) {

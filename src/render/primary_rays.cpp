@@ -41,7 +41,10 @@ void showSurface(ScreenSample& sample, float distance, const Surface& surface) {
 
 Result<void> castPrimary(PictureTask& task, const PixelRect& part, Frame& frame) {
     thread_local Scratch scratch;
-    auto& [rays, hits, surfaces] = scratch;
+    // No structured binding: lambdas capture none with clang 14.
+    auto& rays = scratch.rays;
+    auto& hits = scratch.hits;
+    auto& surfaces = scratch.surfaces;
     const int side = task.desc.samplesPerAxis;
     rays.clear();
     forEachPixel(part, [&](int x, int y) {
