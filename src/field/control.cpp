@@ -22,14 +22,11 @@ float windowOf(float hysteresis) {
     return 1.0f / (1.0f - hysteresis);
 }
 
-// Cells beyond which sums might overflow.
-constexpr int kMostScrolled = 1'000'000'000;
-
 std::uint32_t ditherSeedOf(const FieldDesc& desc, int frame) {
     return kernels::hashCombine(seedOf(desc) ^ 0x6a09e667u, std::uint32_t(frame));
 }
 
-// As VolumeDesc's probePosition, to the bit, for a probe by its slot.
+// Of the probe in a slot, wherever its volume's window is.
 glm::vec3 positionOf(const kernels::Volume& volume, int slot) {
     return kernels::probePosition(volume, kernels::probeCell(volume, slot));
 }

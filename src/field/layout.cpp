@@ -23,10 +23,10 @@ glm::ivec3 cellsToCentre(const VolumeDesc& volume, glm::vec3 point) noexcept {
     const glm::vec3 inVolume = glm::conjugate(volume.orientation) * (point - volume.origin);
     // Down from the half, so that a point on the seam of two cells moves the window once only.
     const glm::vec3 cells = glm::floor(inVolume / volume.spacing - 0.5f * glm::vec3(volume.counts - 1) + 0.5f);
-    constexpr float kFar = 1e9f;
     glm::ivec3 result(0);
     for (int axis = 0; axis < 3; ++axis)
-        if (!std::isnan(cells[axis])) result[axis] = int(std::clamp(cells[axis], -kFar, kFar));
+        if (!std::isnan(cells[axis]))
+            result[axis] = int(std::clamp(cells[axis], -float(kMostScrolled), float(kMostScrolled)));
     return result;
 }
 
@@ -57,8 +57,7 @@ std::vector<kernels::Volume> makeVolumes(const FieldDesc& desc, std::span<const 
                            .counts = v.counts,
                            .turned = turned ? 1 : 0,
                            .orientation = {v.orientation.x, v.orientation.y, v.orientation.z, v.orientation.w},
-                           // GLM's remainder has the sign of the dividend.
-                           .phase = (scrolled[i] % v.counts + v.counts) % v.counts,
+                           .phase = scrolledPhase(scrolled[i], v.counts),
                            .maxDistance = visibilityRange(v)});
         firstSlot += probeCount(v);
     }

@@ -38,6 +38,14 @@ std::vector<kernels::Volume> makeVolumes(const FieldDesc& desc);
 /// The same after scrolling by so many cells, by volume.
 std::vector<kernels::Volume> makeVolumes(const FieldDesc& desc, std::span<const glm::ivec3> scrolled);
 
+/// Cells that a volume may be scrolled by in all, along an axis: far from where sums overflow.
+inline constexpr int kMostScrolled = 1'000'000'000;
+
+/// kernels::Volume::phase after scrolling by so many cells.
+inline glm::ivec3 scrolledPhase(glm::ivec3 cells, glm::ivec3 counts) {
+    return (cells % counts + counts) % counts;  // GLM's remainder has the sign of the dividend
+}
+
 /// A volume after scrolling by so many cells.
 VolumeDesc scrolledVolume(const VolumeDesc& volume, glm::ivec3 cells);
 

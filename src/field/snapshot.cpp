@@ -99,7 +99,7 @@ Result<void> validateSnapshot(const FieldDesc& desc, const FieldSnapshot& snapsh
                     sentence("the snapshot says of ", snapshot.scrolled.size(),
                              " volumes how far they were scrolled; it has ", desc.volumes.size()));
     for (const glm::ivec3& cells : snapshot.scrolled)
-        if (glm::any(glm::greaterThan(glm::abs(glm::dvec3(cells)), glm::dvec3(1e9))))
+        if (glm::any(glm::greaterThan(glm::abs(glm::dvec3(cells)), glm::dvec3(kMostScrolled))))
             return fail(ErrorCode::invalidArgument, "the snapshot's volumes were scrolled too far");
     if (snapshot.frame < 0 || snapshot.frame > kLastFrame || snapshot.rayTurns < 0 ||
         snapshot.rayTurns > snapshot.frame)
@@ -134,13 +134,12 @@ kernels::PackedProbeFilter filterOf(const ProbeState& state) noexcept {
 }
 
 int FieldSnapshot::slotOf(int volume, int number) const noexcept {
-    int first = 0;
-    for (int i = 0; i < volume; ++i) first += probeCount(desc.volumes[std::size_t(i)]);
-    const glm::ivec3& counts = desc.volumes[std::size_t(volume)].counts;
-    const glm::ivec3 cell(number % counts.x, number / counts.x % counts.y, number / (counts.x * counts.y));
-    // GLM's remainder has the sign of the dividend.
-    const glm::ivec3 place = ((cell + scrolled[std::size_t(volume)]) % counts + counts) % counts;
-    return first + place.x + counts.x * (place.y + counts.y * place.z);
+    kernels::Volume v{};
+    v.counts = desc.volumes[std::size_t(volume)].counts;
+    v.phase = scrolledPhase(scrolled[std::size_t(volume)], v.counts);
+    for (int i = 0; i < volume; ++i) v.firstSlot += probeCount(desc.volumes[std::size_t(i)]);
+    const glm::ivec3& n = v.counts;
+    return kernels::probeSlot(v, {number % n.x, number / n.x % n.y, number / (n.x * n.y)});
 }
 
 glm::vec3 FieldSnapshot::probeIrradiance(int slot, glm::vec3 normal) const noexcept {
