@@ -8,6 +8,7 @@
 #include "console/terminal.h"
 #include "markdown.h"
 #include "motion.h"
+#include "placement.h"
 #include "probegi/builtin_scenes.h"
 #include "surfaces.h"
 
@@ -18,7 +19,9 @@ using namespace probegi::accuracy;
 
 struct Options {
     std::string page;
-    std::string only;  ///< a scene, "leak" or "surfaces"; empty: all
+    std::string only;   ///< a scene, "leak", "surfaces", "placement" or "motion"; empty: all
+    std::string scene;  ///< of the placement's; empty: all
+    bool leaky = false;
     std::string scenesFolder = "../shared/scenes";
     int threads = 0;
     int samplesPerPixel = 256;
@@ -73,6 +76,25 @@ Result<std::string> surfaces(const Context& context, const Options& options) {
         rows.insert(rows.end(), measured->begin(), measured->end());
     }
     return surfaceTable(rows);
+}
+
+/// The table of relocation and states.
+Result<std::string> placement(const Context& context, const Options& options) {
+    std::vector<PlacementRow> rows;
+    for (const char* name : {"two-rooms", "house", "atrium", "sponza"}) {
+        if (!options.scene.empty() && options.scene != name) continue;
+        tool::SceneOptions scene;
+        scene.scene = "builtin:" + std::string(name);
+        for (const Case& entry : cases(options))
+            if (entry.name == name) scene = entry.options;
+        const auto setup = tool::loadSetup(scene);
+        if (!setup) return setup.error();
+        const auto measured =
+            measurePlacement(context, name, *setup, options.leaky ? LeakGuard::none : LeakGuard::moments);
+        if (!measured) return measured.error();
+        rows.insert(rows.end(), measured->begin(), measured->end());
+    }
+    return placementTable(rows);
 }
 
 /// A row of the table of light in motion.
@@ -157,6 +179,11 @@ Result<void> measure(const Options& options) {
         if (!table) return table.error();
         tables += *table;
     }
+    if (wanted("placement")) {
+        const auto table = placement(*context, options);
+        if (!table) return table.error();
+        tables += *table;
+    }
     if (wanted("motion")) {
         const auto table = motion(*context, options);
         if (!table) return table.error();
@@ -174,8 +201,10 @@ int run(int argc, char** argv) {
     app.add_option("-o,--output", options.page, "page whose measured part is replaced (default: print)")
         ->type_name("FILE");
     app.add_option("--only", options.only,
-                   "print the tables of one scene, the leak, the surfaces or motion, and write nothing")
-        ->type_name("cornell|two-rooms|dark-room|sponza|leak|surfaces|motion");
+                   "print the tables of one scene, the leak, the surfaces, placement or motion, and write nothing")
+        ->type_name("cornell|two-rooms|dark-room|sponza|leak|surfaces|placement|motion");
+    app.add_option("--scene", options.scene, "of placement: this scene only");
+    app.add_flag("--leaky", options.leaky, "placement: without a visibility test");
     app.add_option("--scenes", options.scenesFolder, "folder of the real scenes (default: PROBEGI_SCENES)")
         ->capture_default_str();
     app.add_option("--threads", options.threads, "worker threads; 0: all")->check(tool::inRange(0, 1024));

@@ -8,6 +8,7 @@
 
 #include "probegi/export.h"
 #include "probegi/result.h"
+#include "probegi/scene.h"
 #include "probegi/shared/field_data.h"
 #include "probegi/volume.h"
 
@@ -31,6 +32,17 @@ enum class FieldRules : std::uint8_t {
     paper,     ///< exactly what sections 2 and 4 of the paper say
 };
 
+/// What a probe does (section 6, Figure 7).
+enum class ProbeActivity : std::uint8_t {
+    uninitialized,  ///< not placed yet: the coming update places it
+    off,            ///< inside static geometry: never updated, never asked
+    sleeping,       ///< no surface uses it: not updated, not asked
+    newlyAwake,     ///< awake from its next update on, which keeps nothing of what it knew
+    newlyVigilant,  ///< vigilant from its next update on
+    awake,          ///< near something that moves, or in a medium
+    vigilant,       ///< static surfaces use it: always updated
+};
+
 /// What a Field is made of; fixed once it is made.
 struct FieldDesc {
     /// Its probes, 1..32 volumes. All have the same maps and share the rays of an update. Probes are numbered
@@ -46,6 +58,15 @@ struct FieldDesc {
     /// Points on emissive triangles that a probe looks at in each update besides its rays (Tracer::emitters), 0..16;
     /// 0: light of a lamp comes by rays that happen to meet it. FieldRules::paper: none, as in the paper.
     int emitterSamples = 4;
+    /// Probes leave walls, and keep a distance from surfaces, by up to 0.45 of the spacing along each axis (section 5).
+    /// Done once for each probe, before its first update, by the static geometry: see FieldControl::setMoving. Traced
+    /// updates place probes with rays of their own (384 a probe); where the caller traces the rays, those of the first
+    /// six updates do, and no look-up uses a probe before it is placed.
+    bool relocation = false;
+    /// Probes that no surface uses are not updated, and no look-up uses them (section 6): in open air, in solid walls,
+    /// in the void. Things that move, and points in the air that are asked for, must be announced: see
+    /// FieldControl::setMoving and setMedia.
+    bool probeStates = false;
     std::uint64_t seed = 1;  ///< of the per-frame ray directions, the emitter samples and the storage dither
 };
 
@@ -95,10 +116,23 @@ public:
     /// Where volume `volume` stands after all scrolling (Field::scroll): desc().volumes[volume] with another origin.
     VolumeDesc place(int volume) const noexcept;
 
+    /// World bounds of all that moves, metres; they hold until they are replaced. Probes whose light they may ask for
+    /// are awake (section 6.3), and placing probes ignores what is in them. Call it before the update when things have
+    /// moved. Without FieldDesc::probeStates, only the placing of probes regards them. Errors: invalidArgument (bounds
+    /// that are not finite, or upside down), outOfMemory.
+    Result<void> setMoving(std::span<const Bounds> bounds);
+    /// The same for points in the air that are asked for: fog, dust, particles. Probes in and around a medium stay
+    /// awake.
+    Result<void> setMedia(std::span<const Bounds> bounds);
+    /// What the probe of a slot does, and where it stands: metres, in the world. Unchecked.
+    ProbeActivity activity(int slot) const noexcept;
+    glm::vec3 probePosition(int slot) const noexcept;
+
     /// Announces a change to the scene (section 4.3). Durations count updates, whichever probes these update.
     void notify(FieldEvent event) noexcept;
 
-    /// The probes of the coming updates, in the order of their ray data.
+    /// The probes of the coming updates, in the order of their ray data: those that are active. With relocation or
+    /// states they change when probes are placed, fall asleep or wake: ask before each update.
     std::span<const ProbeTask> tasks() const noexcept;
     /// Chooses the probes of all coming updates, by slot, in any order; empty: all of them, as at first. Others keep
     /// their contents; a probe that was never updated is black, and its first update replaces all of it. converge()

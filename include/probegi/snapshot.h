@@ -33,6 +33,12 @@ struct ProbeState {
     std::uint32_t trust = 0;      ///< in the path, 0..16
     /// The temporal filter, packed (src/kernels/blend/temporal_filter.h).
     std::array<std::uint32_t, 8> filter{};
+    /// Activity and offset, packed (src/kernels/volume/probe_offset.h, src/kernels/probe/probe_state.h).
+    std::uint32_t placement = std::uint32_t(ProbeActivity::vigilant);
+
+    ProbeActivity activity() const noexcept { return ProbeActivity(placement & 7u); }
+    /// From the probe's place in the lattice, along the volume's axes, in shares of its spacing, -0.5..0.5.
+    glm::vec3 offset() const noexcept;
 
     bool operator==(const ProbeState&) const = default;
 };

@@ -156,6 +156,7 @@ FieldStorage::FieldStorage(const FieldLayout& layout)
       visibility(layout.probes * layout.visibilityTexels),
       filters(layout.probes),
       backfaceShare(layout.probes),
+      placements(layout.probes),
       sides(layout.probes) {}
 
 void makeBlendWeights(const Context& context, const FieldDesc& desc, float exponent,

@@ -58,6 +58,7 @@ FieldView CpuField::view(const FieldSettings& settings) const noexcept {
             .irradiance = m_storage.irradiance.data(),
             .visibility = m_storage.visibility.data(),
             .backfaceShare = m_storage.backfaceShare.data(),
+            .placements = m_storage.placements.data(),
             .fallbacks = &m_fallbacks,
             .irradianceTaps = &m_irradianceTaps,
             .visibilityTaps = &m_visibilityTaps};
@@ -152,20 +153,29 @@ void CpuField::place(std::span<const kernels::Volume> volumes) noexcept {
 
 Result<void> CpuField::enter(const FieldSettings&, int volume, glm::ivec3 cells) {
     const kernels::Volume& v = m_volumes[std::size_t(volume)];
-    const auto clear = [](auto& values, std::size_t slot, std::size_t each) {
-        std::fill_n(values.begin() + std::ptrdiff_t(slot * each), each, 0);
-    };
     parallelFor(m_context, std::size_t(kernels::volumeProbes(v)), 256, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t slot = std::size_t(v.firstSlot) + begin; slot < std::size_t(v.firstSlot) + end; ++slot) {
-            if (!kernels::hasEntered(v, kernels::probeCell(v, int(slot)), cells)) continue;
-            clear(m_storage.irradiance, slot, 3 * m_layout.irradianceTexels);
-            clear(m_storage.visibility, slot, m_layout.visibilityTexels);
-            m_storage.filters[slot] = kernels::newFilter();
-            m_storage.sides[slot] = kernels::noSides();
-            m_storage.backfaceShare[slot] = kernels::kNeverUpdated;
-        }
+        for (std::size_t slot = std::size_t(v.firstSlot) + begin; slot < std::size_t(v.firstSlot) + end; ++slot)
+            if (kernels::hasEntered(v, kernels::probeCell(v, int(slot)), cells)) renew(slot);
     });
     return {};
+}
+
+Result<void> CpuField::setPlacements(const FieldSettings&, std::span<const std::uint32_t> placements,
+                                     std::span<const std::uint32_t> renewed) {
+    std::copy(placements.begin(), placements.end(), m_storage.placements.begin());
+    for (const std::uint32_t slot : renewed) renew(slot);
+    return {};
+}
+
+void CpuField::renew(std::size_t slot) noexcept {
+    const auto clear = [slot](auto& values, std::size_t each) {
+        std::fill_n(values.begin() + std::ptrdiff_t(slot * each), each, 0);
+    };
+    clear(m_storage.irradiance, 3 * m_layout.irradianceTexels);
+    clear(m_storage.visibility, m_layout.visibilityTexels);
+    m_storage.filters[slot] = kernels::newFilter();
+    m_storage.sides[slot] = kernels::noSides();
+    m_storage.backfaceShare[slot] = kernels::kNeverUpdated;
 }
 
 Result<FieldSnapshot> CpuField::read(SlotRange slots) const {
@@ -191,6 +201,7 @@ Result<void> CpuField::write(const FieldSnapshot& snapshot) {
         m_storage.backfaceShare[first + i] = snapshot.states[i].backfaceShare;
         m_storage.sides[first + i] = sidesOf(snapshot.states[i]);
         m_storage.filters[first + i] = filterOf(snapshot.states[i]);
+        m_storage.placements[first + i] = snapshot.states[i].placement;
     }
     return {};
 }
@@ -199,7 +210,7 @@ FieldMemory CpuField::memory() const noexcept {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return {bytes(m_storage.irradiance), bytes(m_storage.visibility),
             bytes(m_storage.filters) + bytes(m_storage.backfaceShare) + bytes(m_storage.sides) +
-                bytes(m_irradianceTaps) + bytes(m_visibilityTaps) + sizeof(*this),
+                bytes(m_storage.placements) + bytes(m_irradianceTaps) + bytes(m_visibilityTaps) + sizeof(*this),
             bytes(m_rayData) + bytes(m_fixedRays) + bytes(m_emitterLights) + bytes(m_weights.irradiance) +
                 bytes(m_weights.visibility) + bytes(m_weights.evidence) + m_filter.bytes()};
 }

@@ -24,6 +24,8 @@ public:
     Result<ProbeLight> light() const override;
     void place(std::span<const kernels::Volume> volumes) noexcept override;
     Result<void> enter(const FieldSettings& settings, int volume, glm::ivec3 cells) override;
+    Result<void> setPlacements(const FieldSettings& settings, std::span<const std::uint32_t> placements,
+                               std::span<const std::uint32_t> renewed) override;
     Result<FieldSnapshot> read(SlotRange slots) const override;
     Result<void> write(const FieldSnapshot& snapshot) override;
 
@@ -31,6 +33,7 @@ public:
     std::uint64_t fallbackQueries() const noexcept override { return m_fallbacks.load(); }
 
 private:
+    void renew(std::size_t slot) noexcept;
     FieldView view(const FieldSettings& settings) const noexcept;
     void blend(const UpdateFrame& frame, std::span<const RayDatum> rayData, std::span<const FixedRayDatum> fixedRays,
                std::span<const kernels::EmitterLight> emitters);

@@ -7,7 +7,7 @@
 namespace probegi {
 
 EmitterBlend::EmitterBlend(int size, std::span<const kernels::EmitterLight> lights, std::size_t tasks)
-    : m_lights(lights), m_looks(lights.size() / tasks) {
+    : m_lights(lights), m_looks(tasks > 0 ? lights.size() / tasks : 0) {
     if (m_looks == 0) return;
     for (int texel = 0; texel < size * size; ++texel) {
         const glm::vec3 n = kernels::octTexelDirection(texel % size, texel / size, size);

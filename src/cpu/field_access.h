@@ -22,6 +22,7 @@ public:
           m_view(view) {}
 
     friend float storedBackfaceShare(const FieldAccess& a, int slot) { return a.m_view.backfaceShare[slot]; }
+    friend int storedPlacement(const FieldAccess& a, int slot) { return int(a.m_view.placements[slot]); }
     friend float givenVisibility(const FieldAccess&, int) { return 1.0f; }
     friend void countFallback(const FieldAccess& a) {
         if (a.m_view.fallbacks) a.m_view.fallbacks->fetch_add(1, std::memory_order_relaxed);

@@ -22,6 +22,8 @@ struct FieldStorage {
     std::vector<kernels::PackedProbeFilter> filters;
     /// Share of the hits that were on backs and speak for solid matter, 0..1, averaged over frames: [probe].
     std::vector<float> backfaceShare;
+    /// State and offset: [probe]. Set by the field's books (FieldBackend::setPlacements).
+    std::vector<std::uint32_t> placements;
     /// What that share is made from: [probe].
     std::vector<kernels::ProbeSides> sides;
 };

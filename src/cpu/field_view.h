@@ -29,6 +29,7 @@ struct FieldView {
     const std::uint16_t* irradiance = nullptr;
     const std::uint32_t* visibility = nullptr;
     const float* backfaceShare = nullptr;
+    const std::uint32_t* placements = nullptr;        ///< kernels/volume/probe_offset.h
     std::atomic<std::uint64_t>* fallbacks = nullptr;  ///< counts the queries whose cage had too little weight
     const TapTable* irradianceTaps = nullptr;
     const TapTable* visibilityTaps = nullptr;

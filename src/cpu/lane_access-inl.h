@@ -33,6 +33,7 @@ public:
     explicit LaneAccess(const FieldView& view)
         : selfShadowBias(view.selfShadowBias),
           m_backfaceShare(view.backfaceShare),
+          m_placements(reinterpret_cast<const std::int32_t*>(view.placements)),
           m_size(view.visibilityTexels),
           m_half(std::uint32_t(std::uint64_t(view.slots) * std::uint32_t(m_size * m_size) / 2)),
           m_middle(reinterpret_cast<const std::int32_t*>(view.visibility + m_half)),
@@ -45,6 +46,9 @@ public:
 
     HWY_INLINE friend Real storedBackfaceShare(const LaneAccess& a, const Int& slot) {
         return kernels::HWY_NAMESPACE::gather(a.m_backfaceShare, slot);
+    }
+    HWY_INLINE friend Int storedPlacement(const LaneAccess& a, const Int& slot) {
+        return kernels::HWY_NAMESPACE::gather(a.m_placements, slot);
     }
     HWY_INLINE friend Real givenVisibility(const LaneAccess&, int) { return 1.0f; }
 
@@ -109,6 +113,7 @@ private:
     }
 
     const float* m_backfaceShare;
+    const std::int32_t* m_placements;
     int m_size;  // texels a side
     std::uint32_t m_half;
     const std::int32_t* m_middle;

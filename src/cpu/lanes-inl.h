@@ -141,6 +141,9 @@ HWY_INLINE Int toInt(const Real& x) {
 HWY_INLINE Real toReal(const Int& x) {
     return Real(hn::ConvertTo(kReals, x.lanes));
 }
+HWY_INLINE Int signedByte(const Int& word, int byte) {
+    return Int(hn::ShiftRight<24>(hn::ShiftLeftSame(word.lanes, 24 - 8 * byte)));
+}
 /// Of 32 unsigned bits.
 HWY_INLINE Int lowHalf(const Int& bits) {
     return bits & Int(0xffff);
@@ -203,6 +206,7 @@ using kernels::select;
 #undef PROBEGI_KERNELS_LIST_H
 #undef PROBEGI_KERNELS_OCTAHEDRAL_H
 #undef PROBEGI_KERNELS_PROBE_CAGE_H
+#undef PROBEGI_KERNELS_PROBE_OFFSET_H
 #undef PROBEGI_KERNELS_PROBE_QUERY_H
 #undef PROBEGI_KERNELS_SURFACE_GRADIENT_H
 #undef PROBEGI_KERNELS_VOLUME_FRAME_H

@@ -3,11 +3,15 @@
 #include <glm/geometric.hpp>
 
 #include "core/parallel.h"
-#include "kernels/volume/volume_frame.h"
+#include "kernels/volume/probe_offset.h"
 
 namespace probegi {
 
 namespace {
+
+glm::vec3 offsetOf(const FieldView& view, const kernels::Volume& volume, int slot) {
+    return kernels::probeOffset(volume, int(view.placements[slot]));
+}
 
 // Steps into the open by way of the 26 neighbours.
 std::uint32_t stepsByNeighbours(const FieldView& view, std::span<const kernels::ProbeSides> sides,
@@ -23,7 +27,8 @@ std::uint32_t stepsByNeighbours(const FieldView& view, std::span<const kernels::
                 const int neighbour = kernels::probeSlot(volume, {x, y, z});
                 const std::uint32_t by = kernels::stepsBy(sides[std::size_t(neighbour)].steps);
                 if (by >= steps || neighbour == probe) continue;
-                const glm::vec3 way = glm::vec3(glm::ivec3(x, y, z) - cell) * volume.spacing;
+                glm::vec3 way = glm::vec3(glm::ivec3(x, y, z) - cell) * volume.spacing;
+                if (volume.relocated != 0) way += offsetOf(view, volume, neighbour) - offsetOf(view, volume, probe);
                 const float distance = glm::length(way);
                 const glm::vec3 direction = kernels::toWorldDirection(volume, way / distance);
                 if (kernels::freeWay(probeMoments(view, probe, direction).x,

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <new>
 
@@ -6,8 +7,9 @@
 #include "field/control_impl.h"
 #include "field/layout.h"
 #include "kernels/blend/temporal_filter.h"
+#include "kernels/probe/probe_state.h"
 #include "kernels/trace/ray_set.h"
-#include "kernels/volume/volume_frame.h"
+#include "kernels/volume/placed_probe.h"
 
 namespace probegi {
 
@@ -27,17 +29,32 @@ std::uint32_t ditherSeedOf(const FieldDesc& desc, int frame) {
 }
 
 // Of the probe in a slot, wherever its volume's window is.
-glm::vec3 positionOf(const kernels::Volume& volume, int slot) {
-    return kernels::probePosition(volume, kernels::probeCell(volume, slot));
+glm::vec3 positionOf(const kernels::Volume& volume, const ProbeStates& states, std::size_t slot) {
+    return kernels::placedPosition(volume, kernels::probeCell(volume, int(slot)), states.placements()[slot]);
+}
+
+Result<void> checkBounds(std::span<const Bounds> bounds) {
+    for (const Bounds& b : bounds)
+        for (int axis = 0; axis < 3; ++axis)
+            if (!std::isfinite(b.lower[axis]) || !std::isfinite(b.upper[axis]) || b.lower[axis] > b.upper[axis])
+                return fail(ErrorCode::invalidArgument,
+                            "bounds must be finite, and their lower corner not above the upper one");
+    return {};
 }
 
 }  // namespace
 
-std::vector<ProbeTask> allTasks(std::span<const kernels::Volume> volumes) {
+std::vector<ProbeTask> tasksOf(std::span<const kernels::Volume> volumes, const ProbeStates& states,
+                               std::span<const std::uint32_t> chosen) {
     std::vector<ProbeTask> tasks;
+    const auto add = [&](std::uint32_t slot, std::uint32_t volume) {
+        if (states.isTask(slot)) tasks.push_back({positionOf(volumes[volume], states, slot), slot, volume});
+    };
+    for (const std::uint32_t slot : chosen) add(slot, std::uint32_t(volumeOf(volumes, int(slot))));
+    if (!chosen.empty()) return tasks;
     for (std::uint32_t volume = 0; volume < volumes.size(); ++volume)
         for (int i = 0; i < kernels::volumeProbes(volumes[volume]); ++i)
-            tasks.push_back({positionOf(volumes[volume], int(tasks.size())), std::uint32_t(tasks.size()), volume});
+            add(std::uint32_t(volumes[volume].firstSlot + i), volume);
     return tasks;
 }
 
@@ -46,7 +63,8 @@ FieldControl::Impl::Impl(const FieldDesc& d, const FieldSettings& s)
       settings(s),
       scrolled(d.volumes.size()),
       volumes(makeVolumes(d)),
-      tasks(allTasks(volumes)),
+      states(d),
+      tasks(tasksOf(volumes, states, {})),
       directions(std::size_t(d.raysPerProbe)) {
     turnRays();
     const std::uint32_t fixed = desc.rules == FieldRules::measured ? std::uint32_t(desc.fixedRays) : 0u;
@@ -63,7 +81,24 @@ void FieldControl::Impl::turnRays() noexcept {
 
 std::size_t FieldControl::Impl::bytes() const noexcept {
     return sizeof(*this) + (directions.capacity() + fixedDirections.capacity()) * sizeof(directions[0]) +
-           tasks.capacity() * sizeof(tasks[0]);
+           tasks.capacity() * sizeof(tasks[0]) + chosen.capacity() * sizeof(chosen[0]) + states.bytes();
+}
+
+void FieldControl::Impl::listTasks() {
+    tasks = tasksOf(volumes, states, chosen);
+    taskList = chosen.empty() && states.allAreTasks() ? 0 : ++taskLists;
+}
+
+Result<void> FieldControl::Impl::watch(std::span<const Bounds> moving, std::span<const Bounds> media) try {
+    if (auto ok = checkBounds(moving).and_then([&] { return checkBounds(media); }); !ok) return ok;
+    ProbeStates next = states;
+    next.watch(moving, media);
+    next.wake(volumes, settings, desc.rules);
+    std::swap(states, next);
+    if (states.changed()) listTasks();
+    return {};
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, "no memory for the bounds of what moves");
 }
 
 UpdateFrame FieldControl::Impl::comingUpdate() const noexcept {
@@ -113,6 +148,7 @@ void FieldControl::Impl::setAveraging(bool isAverage) {
 
 void FieldControl::Impl::advance(bool turn) {
     events.advance();
+    states.updated(tasks);
     ++frame;
     if (!turn) return;
     ++turns;
@@ -122,6 +158,8 @@ void FieldControl::Impl::advance(bool turn) {
 void FieldControl::Impl::restart() {
     events = {};
     frame = turns = 0;
+    states.restart();
+    listTasks();
     turnRays();
 }
 
@@ -129,16 +167,23 @@ void FieldControl::Impl::describe(FieldSnapshot& snapshot) const noexcept {
     snapshot.frame = frame;
     snapshot.rayTurns = turns;
     snapshot.scrolled = scrolled;
+    for (std::size_t i = 0; i < snapshot.states.size(); ++i)
+        snapshot.states[i].placement = states.placements()[std::size_t(snapshot.slots.first) + i];
 }
 
-Result<FieldControl::Impl::Placement> FieldControl::Impl::placedAt(std::vector<glm::ivec3> cells) const {
+Result<FieldControl::Impl::Placement> FieldControl::Impl::placedAt(std::vector<glm::ivec3> cells,
+                                                                   const ProbeStates& now) const {
     if (averaging) return fail(ErrorCode::invalidArgument, "a field cannot be moved or written while it converges");
     for (std::size_t i = 0; i < cells.size(); ++i)
         if (auto ok = validateVolumePlace(sentence("volumes[", i, "]"), scrolledVolume(desc.volumes[i], cells[i])); !ok)
             return ok.error();
-    Placement placed{std::move(cells), {}, tasks};
+    Placement placed{std::move(cells), {}, now, {}, 0};
     placed.volumes = makeVolumes(desc, placed.scrolled);
-    for (ProbeTask& task : placed.tasks) task.origin = positionOf(placed.volumes[task.volume], int(task.slot));
+    for (std::size_t i = 0; i < placed.volumes.size(); ++i)
+        placed.states.enter(placed.volumes[i], placed.scrolled[i] - scrolled[i]);
+    placed.states.wake(placed.volumes, settings, desc.rules);
+    placed.tasks = tasksOf(placed.volumes, placed.states, chosen);
+    placed.taskList = taskList == 0 && placed.states.allAreTasks() ? 0 : ++taskLists;
     return placed;
 }
 
@@ -154,7 +199,7 @@ Result<FieldControl::Impl::Placement> FieldControl::Impl::scrolledBy(int volume,
                         sentence("a volume can be scrolled by ", kMostScrolled, " cells from where it was made"));
         moved[std::size_t(volume)][axis] = int(sum);
     }
-    return placedAt(std::move(moved));
+    return placedAt(std::move(moved), states);
 }
 
 Result<FieldControl::Impl::Placement> FieldControl::Impl::placementOf(const FieldSnapshot& snapshot) const {
@@ -162,13 +207,22 @@ Result<FieldControl::Impl::Placement> FieldControl::Impl::placementOf(const Fiel
     if (!whole && snapshot.slots.count > 0 && snapshot.scrolled != scrolled)
         return fail(ErrorCode::invalidArgument,
                     "the snapshot's volumes were scrolled elsewhere; scroll the field's alike, or write all slots");
-    return placedAt(whole ? snapshot.scrolled : scrolled);
+    std::vector<std::uint32_t> placements;
+    for (const ProbeState& state : snapshot.states) placements.push_back(state.placement);
+    auto placed = placedAt(whole ? snapshot.scrolled : scrolled, states);
+    if (!placed) return placed;
+    placed->states.replace(snapshot.slots, placements);
+    placed->tasks = tasksOf(placed->volumes, placed->states, chosen);
+    placed->taskList = taskList == 0 && placed->states.allAreTasks() ? 0 : ++taskLists;
+    return placed;
 }
 
 void FieldControl::Impl::swapPlacement(Placement& other) noexcept {
     scrolled.swap(other.scrolled);
     volumes.swap(other.volumes);
+    std::swap(states, other.states);
     tasks.swap(other.tasks);
+    std::swap(taskList, other.taskList);
 }
 
 void FieldControl::Impl::goOnFrom(const FieldSnapshot& snapshot) noexcept {
@@ -212,6 +266,21 @@ std::span<const glm::vec3> FieldControl::fixedRayDirections() const noexcept {
     return m_impl->fixedDirections;
 }
 
+ProbeActivity FieldControl::activity(int slot) const noexcept {
+    return ProbeActivity(kernels::stateOf(m_impl->states.placements()[std::size_t(slot)]));
+}
+glm::vec3 FieldControl::probePosition(int slot) const noexcept {
+    const std::span<const kernels::Volume> volumes = m_impl->volumes;
+    return positionOf(volumes[volumeOf(volumes, slot)], m_impl->states, std::size_t(slot));
+}
+
+Result<void> FieldControl::setMoving(std::span<const Bounds> bounds) {
+    return m_impl->watch(bounds, m_impl->states.media());
+}
+Result<void> FieldControl::setMedia(std::span<const Bounds> bounds) {
+    return m_impl->watch(m_impl->states.moving(), bounds);
+}
+
 Result<void> FieldControl::setSettings(const FieldSettings& settings) {
     if (auto ok = validateFieldSettings(settings); !ok) return ok;
     m_impl->settings = settings;
@@ -219,16 +288,7 @@ Result<void> FieldControl::setSettings(const FieldSettings& settings) {
 }
 
 Result<void> FieldControl::setTasks(std::span<const std::uint32_t> slots) try {
-    const FieldDesc& desc = m_impl->desc;
-    if (slots.empty()) {
-        m_impl->tasks = allTasks(m_impl->volumes);
-        m_impl->taskList = 0;
-        return {};
-    }
-    const std::span<const kernels::Volume> volumes = m_impl->volumes;
-    std::vector<bool> taken(std::size_t(probeCount(desc)));
-    std::vector<ProbeTask> chosen;
-    chosen.reserve(slots.size());
+    std::vector<bool> taken(std::size_t(probeCount(m_impl->desc)));
     for (const std::uint32_t slot : slots) {
         if (slot >= taken.size())
             return fail(ErrorCode::invalidArgument,
@@ -237,11 +297,10 @@ Result<void> FieldControl::setTasks(std::span<const std::uint32_t> slots) try {
             return fail(ErrorCode::invalidArgument,
                         sentence("slot ", slot, " is listed twice; an update has each probe once"));
         taken[slot] = true;
-        const std::size_t volume = volumeOf(volumes, int(slot));
-        chosen.push_back({positionOf(volumes[volume], int(slot)), slot, std::uint32_t(volume)});
     }
-    m_impl->tasks = std::move(chosen);
-    m_impl->taskList = ++m_impl->taskLists;
+    std::vector<std::uint32_t> chosen(slots.begin(), slots.end());
+    m_impl->chosen.swap(chosen);
+    m_impl->listTasks();
     return {};
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, "no memory for the list of probes");

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "field/probe_states.h"
 #include "field/update_frame.h"
 #include "probegi/control.h"
 #include "probegi/snapshot.h"
@@ -41,13 +42,18 @@ struct FieldControl::Impl {
     struct Placement {
         std::vector<glm::ivec3> scrolled;      // by volume, cells
         std::vector<kernels::Volume> volumes;  // as they stand
+        ProbeStates states;
         std::vector<ProbeTask> tasks;
+        std::uint32_t taskList;
     };
     /// The placement after a volume was scrolled by so many cells more. Errors: invalidArgument (no such volume, too
     /// far away, in the middle of an average).
     Result<Placement> scrolledBy(int volume, glm::ivec3 cells) const;
     /// The placement of a snapshot's field. Errors: invalidArgument.
     Result<Placement> placementOf(const FieldSnapshot& snapshot) const;
+    /// After the states have changed: the coming updates' tasks. May throw std::bad_alloc; the tasks are then those
+    /// before.
+    void listTasks();
     /// Exchanges the placement with another one.
     void swapPlacement(Placement& other) noexcept;
 
@@ -55,9 +61,11 @@ struct FieldControl::Impl {
     FieldSettings settings;
     std::vector<glm::ivec3> scrolled;      // by volume, cells
     std::vector<kernels::Volume> volumes;  // as they stand now
+    ProbeStates states;
+    std::vector<std::uint32_t> chosen;  // slots that setTasks chose; empty: all
     std::vector<ProbeTask> tasks;
-    std::uint32_t taskList = 0;   // number of the list; 0: all probes
-    std::uint32_t taskLists = 0;  // so far
+    std::uint32_t taskList = 0;           // number of the list; 0: all probes
+    mutable std::uint32_t taskLists = 0;  // so far
     std::vector<glm::vec3> directions, fixedDirections;
     HysteresisSchedule events;
     int frame = 0;
@@ -66,11 +74,14 @@ struct FieldControl::Impl {
 
 private:
     void turnRays() noexcept;
-    Result<Placement> placedAt(std::vector<glm::ivec3> cells) const;
+    Result<void> watch(std::span<const Bounds> moving, std::span<const Bounds> media);
+    Result<Placement> placedAt(std::vector<glm::ivec3> cells, const ProbeStates& now) const;
+    friend class FieldControl;
 };
 
-/// A field's probes, in the order of their slots.
-std::vector<ProbeTask> allTasks(std::span<const kernels::Volume> volumes);
+/// Those of the chosen probes that an update has among its tasks, in their order; none chosen: of all, by slot.
+std::vector<ProbeTask> tasksOf(std::span<const kernels::Volume> volumes, const ProbeStates& states,
+                               std::span<const std::uint32_t> chosen);
 
 /// The desc and settings must be valid.
 FieldControl makeFieldControl(const FieldDesc& desc, const FieldSettings& settings);

@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <new>
+#include <optional>
 
 #include "core/progress.h"
 #include "core/sentence.h"
 #include "field/control_impl.h"
 #include "field/convergence.h"
 #include "field/field_backend.h"
+#include "field/probe_placement.h"
 #include "field/snapshot.h"
 
 namespace probegi {
@@ -17,13 +19,13 @@ namespace {
 constexpr const char* kNoScrollMemory = "no memory to scroll a volume";
 constexpr const char* kNoRayDataMemory = "no memory for the update's ray data; use fewer probes or rays";
 
-// All probes take part in an average, whatever the tasks of updates are.
+// All active probes take part in an average, whatever the tasks of updates are.
 class Averaging {
 public:
     explicit Averaging(FieldControl::Impl& books)
-        : m_books(books), m_tasks(allTasks(books.volumes)), m_list(books.taskList) {
+        : m_books(books), m_tasks(tasksOf(books.volumes, books.states, {})), m_list(books.taskList) {
         std::swap(m_books.tasks, m_tasks);
-        m_books.taskList = 0;
+        m_books.taskList = books.states.allAreTasks() ? 0 : ++books.taskLists;
         m_books.setAveraging(true);
     }
     ~Averaging() {
@@ -52,6 +54,34 @@ struct Field::Impl {
     Result<UpdateTimes> ended(Result<UpdateTimes> times) {
         if (times) books().advance();
         return times;
+    }
+
+    // Before an update: the backend learns where the probes stand and which of them forget what they know.
+    Result<void> tellPlaces() {
+        ProbeStates& states = books().states;
+        if (!states.changed()) return {};
+        auto told = backend->setPlacements(control.settings(), states.placements(), states.renewed());
+        if (told) states.told();
+        return told;
+    }
+
+    // Ends a look around of probes that are not placed yet.
+    void place(const FoundPlaces& found) {
+        FieldControl::Impl& b = books();
+        b.states.placed(found.placements, found.surfaces);
+        b.states.wake(b.volumes, b.settings, b.desc.rules);
+        b.listTasks();
+    }
+
+    // Places new probes by rays of their own, so that none is left.
+    Result<void> prepare(const Tracer& tracer) {
+        FieldControl::Impl& b = books();
+        if (b.states.hasNew()) {
+            const auto found = placeProbes(context, b.comingUpdate(), b.states.placements(), b.states.moving(), tracer);
+            if (!found) return found.error();
+            place(*found);
+        }
+        return tellPlaces();
     }
 
     // What the convergence wants to know of the probes after an update.
@@ -129,13 +159,23 @@ Result<UpdateTimes> Field::update(std::span<const RayDatum> rayData, std::span<c
                              " entries; it must be empty or have an entry for each task and each of "
                              "fixedRayDirections(), ",
                              books.fixedRayCount()));
+    if (auto told = m_impl->tellPlaces(); !told) return told.error();
     const UpdateFrame frame = fixedRays.empty() ? books.comingUpdateWithoutFixedRays() : books.comingUpdate();
-    return m_impl->ended(m_impl->backend->update(frame, rayData, fixedRays));
+    std::optional<FoundPlaces> found;
+    if (books.states.hasNew())
+        found = lookAround(m_impl->context, frame, books.states.placements(), books.states.moving(), rayData);
+    auto times = m_impl->ended(m_impl->backend->update(frame, rayData, fixedRays));
+    if (times && found) {
+        m_impl->place(*found);
+        if (auto told = m_impl->tellPlaces(); !told) return told.error();
+    }
+    return times;
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, kNoRayDataMemory);
 }
 
 Result<UpdateTimes> Field::update(const Tracer& tracer, const Lighting& lighting) try {
+    if (auto ready = m_impl->prepare(tracer); !ready) return ready.error();
     return m_impl->ended(m_impl->backend->update(m_impl->books().comingUpdate(), tracer, lighting));
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, kNoRayDataMemory);
@@ -148,6 +188,7 @@ Result<ConvergeResult> Field::converge(const Tracer& tracer, const Lighting& lig
     Impl& m = *m_impl;
     Progress progress(m.context, "converging probes", maxFrames);
     FieldControl::Impl& books = m.books();
+    if (auto ready = m.prepare(tracer); !ready) return ready.error();
     Convergence convergence(books.desc, books.volumes, tolerance, maxFrames);
     const Averaging averaging(books);
     while (convergence.updates() < maxFrames && !convergence.converged()) {

@@ -38,6 +38,11 @@ public:
     /// has had none before, whatever the frame's hysteresis.
     virtual Result<void> enter(const FieldSettings& settings, int volume, glm::ivec3 cells) = 0;
 
+    /// Where the probes stand, by slot (kernels/volume/probe_offset.h, kernels/probe/probe_state.h), and those among
+    /// them that are new from now on, as those that enter().
+    virtual Result<void> setPlacements(const FieldSettings& settings, std::span<const std::uint32_t> placements,
+                                       std::span<const std::uint32_t> renewed) = 0;
+
     /// The slots and the snapshot were checked.
     virtual Result<FieldSnapshot> read(SlotRange slots) const = 0;
     virtual Result<void> write(const FieldSnapshot& snapshot) = 0;

@@ -58,7 +58,8 @@ std::vector<kernels::Volume> makeVolumes(const FieldDesc& desc, std::span<const 
                            .turned = turned ? 1 : 0,
                            .orientation = {v.orientation.x, v.orientation.y, v.orientation.z, v.orientation.w},
                            .phase = scrolledPhase(scrolled[i], v.counts),
-                           .maxDistance = visibilityRange(v)});
+                           .maxDistance = visibilityRange(v),
+                           .relocated = desc.relocation ? 1 : 0});
         firstSlot += probeCount(v);
     }
     return volumes;

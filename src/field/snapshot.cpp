@@ -7,7 +7,9 @@
 #include "core/sentence.h"
 #include "kernels/probe/irradiance_decoding.h"
 #include "kernels/probe/octahedral_texel.h"
+#include "kernels/probe/probe_state.h"
 #include "kernels/probe/probe_texel.h"
+#include "kernels/volume/probe_offset.h"
 
 namespace probegi {
 
@@ -35,11 +37,16 @@ bool isShare(float x) {
 }
 
 // A filter's words are pairs of halves, finite and not negative; one of them is stored plus one.
+bool isPlacement(std::uint32_t placement) {
+    const auto byte = [&](int shift) { return (placement >> shift & 0xffu) != 0x80u; };
+    return kernels::stateOf(placement) < kernels::kProbeStates && byte(8) && byte(16) && byte(24);
+}
+
 bool storable(const ProbeState& state) {
     const auto half = [](std::uint32_t h) { return (h & 0xffffu) <= kInfiniteHalf; };
     return (isShare(state.backfaceShare) || state.backfaceShare == kernels::kNeverUpdated) && isShare(state.backs) &&
            isShare(state.fronts) && state.steps <= kernels::kNoWayOut && state.nextSteps <= kernels::kNoWayOut &&
-           state.trust <= kernels::kMostTrust &&
+           state.trust <= kernels::kMostTrust && isPlacement(state.placement) &&
            std::all_of(state.filter.begin(), state.filter.end(),
                        [&](std::uint32_t word) { return half(word) && half(word >> 16); });
 }
@@ -108,19 +115,31 @@ Result<void> validateSnapshot(const FieldDesc& desc, const FieldSnapshot& snapsh
     if (!std::all_of(snapshot.irradiance.begin(), snapshot.irradiance.end(),
                      [](std::uint16_t half) { return half < kInfiniteHalf; }))
         return fail(ErrorCode::invalidArgument, "the snapshot's irradiance is not finite and positive everywhere");
+    const auto onLattice = [](const ProbeState& state) { return state.placement < 0x100u; };
+    if (!desc.relocation && !std::all_of(snapshot.states.begin(), snapshot.states.end(), onLattice))
+        return fail(ErrorCode::invalidArgument,
+                    "the snapshot's probes were relocated; make the field with relocation too");
     if (!std::all_of(snapshot.states.begin(), snapshot.states.end(), storable))
         return fail(ErrorCode::invalidArgument, "the snapshot has a probe state that no update stores");
     return {};
 }
 
+glm::vec3 ProbeState::offset() const noexcept {
+    kernels::Volume unit{};
+    unit.spacing = glm::vec3(1.0f);
+    return kernels::probeOffset(unit, int(placement));
+}
+
 ProbeState probeState(float backfaceShare, const kernels::ProbeSides& sides, const kernels::PackedProbeFilter& filter) {
-    return {backfaceShare,
-            sides.backs,
-            sides.fronts,
-            sides.steps,
-            sides.nextSteps,
-            sides.trust,
-            std::to_array(filter.words)};
+    ProbeState state;
+    state.backfaceShare = backfaceShare;
+    state.backs = sides.backs;
+    state.fronts = sides.fronts;
+    state.steps = sides.steps;
+    state.nextSteps = sides.nextSteps;
+    state.trust = sides.trust;
+    state.filter = std::to_array(filter.words);
+    return state;
 }
 
 kernels::ProbeSides sidesOf(const ProbeState& state) noexcept {

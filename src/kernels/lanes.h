@@ -40,6 +40,15 @@ KERNEL_FN int toInt(float x) {
     return int(x);
 }
 
+KERNEL_FN float toReal(int x) {
+    return float(x);
+}
+
+// One of a word's four bytes, 0 the lowest, as a number with a sign.
+KERNEL_FN int signedByte(int word, int byte) {
+    return int(uint(word) << uint(24 - 8 * byte)) >> 24;
+}
+
 // Sign that is never 0 (GLSL's sign(0) is).
 KERNEL_FN float signNotZero(float x) {
     return x < 0.0f ? -1.0f : 1.0f;

@@ -30,6 +30,7 @@ struct FormulaField {
     std::function<vec3(int, vec3)> radiance = [](int, vec3) { return vec3(1.0f); };
     std::function<vec2(int, vec3)> moments = [](int, vec3) { return vec2(1.0f, 1.0f); };
     std::function<float(int)> backs = [](int) { return 0.0f; };
+    std::function<int(int)> placement = [](int) { return 0; };
     std::array<float, 8> given = {1, 1, 1, 1, 1, 1, 1, 1};
     mutable int fallbacks = 0;
 
@@ -47,6 +48,7 @@ struct FormulaField {
         storedMoments(f, slot, at, mean, square);
     }
     friend float storedBackfaceShare(const FormulaField& f, int slot) { return f.backs(slot); }
+    friend int storedPlacement(const FormulaField& f, int slot) { return f.placement(slot); }
     friend vec3 storedIrradiance(const FormulaField& f, int slot, vec3 at) {
         return pow(f.radiance(slot, at), vec3(0.2f));
     }

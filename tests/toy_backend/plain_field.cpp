@@ -43,6 +43,7 @@ struct SnapshotAccess {
         storedMoments(a, slot, at, mean, meanSquare);
     }
     friend float storedBackfaceShare(const SnapshotAccess& a, int slot) { return a.probes.state(slot).backfaceShare; }
+    friend int storedPlacement(const SnapshotAccess& a, int slot) { return int(a.probes.state(slot).placement); }
     friend glm::vec3 storedIrradiance(const SnapshotAccess& a, int slot, glm::vec3 at) {
         const glm::vec3 e = a.probes.probeIrradiance(slot, at) / kernels::kPi;
         return {kernels::encodeIrradiance(e.x), kernels::encodeIrradiance(e.y), kernels::encodeIrradiance(e.z)};
@@ -182,12 +183,22 @@ void PlainField::place(std::span<const kernels::Volume> volumes) noexcept {
 
 Result<void> PlainField::enter(const FieldSettings&, int volume, glm::ivec3 cells) {
     const kernels::Volume& v = m_volumes[std::size_t(volume)];
-    FieldSnapshot fresh = emptySnapshot(m_probes.desc, {0, 1});
+    for (int slot = v.firstSlot; slot < v.firstSlot + kernels::volumeProbes(v); ++slot)
+        if (kernels::hasEntered(v, kernels::probeCell(v, slot), cells)) renew(slot);
+    return {};
+}
+
+void PlainField::renew(int slot) {
+    FieldSnapshot fresh = emptySnapshot(m_probes.desc, {slot, 1});
     fresh.states[0].backfaceShare = kernels::kNeverUpdated;
-    for (int slot = v.firstSlot; slot < v.firstSlot + kernels::volumeProbes(v); ++slot) {
-        fresh.slots.first = slot;
-        if (kernels::hasEntered(v, kernels::probeCell(v, slot), cells)) write(fresh).value();
-    }
+    fresh.states[0].placement = m_probes.state(slot).placement;
+    write(fresh).value();
+}
+
+Result<void> PlainField::setPlacements(const FieldSettings&, std::span<const std::uint32_t> placements,
+                                       std::span<const std::uint32_t> renewed) {
+    for (std::size_t slot = 0; slot < placements.size(); ++slot) m_probes.states[slot].placement = placements[slot];
+    for (const std::uint32_t slot : renewed) renew(int(slot));
     return {};
 }
 

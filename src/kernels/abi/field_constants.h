@@ -10,6 +10,12 @@ KERNELS_BEGIN
 // Maximum number of volumes in a field.
 KERNEL_CONST int kMostVolumes = 32;
 
+// What a look-up asks of a probe before it reads its maps.
+struct ProbeStatus {
+    float backfaceShare;
+    uint placement;  // kernels/volume/probe_offset.h
+};
+
 struct FieldConstants {
     int volumeCount;
     int guard;             // its row in kernels/guards/list.h

@@ -122,6 +122,18 @@ struct EnterPush {
     ivec3 cells;  // by which it was scrolled
 };
 
+// A probe's placement, and whether it forgets what it knows (set_placements.comp).
+struct GpuPlacement {
+    uint word;  // kernels/volume/probe_offset.h
+    uint renewed;
+};
+struct PlacementsPush {
+    uvec2 placements;  // GpuPlacement[slot]
+    uvec2 sides;       // ProbeSides[slot]
+    uvec2 filters;     // PackedProbeFilter[slot]
+    uint count;        // of slots
+};
+
 // Paths into the open (find_solid_probes.comp).
 struct SolidPush {
     uvec2 tasks;  // GpuTaskCounts, ProbeTask[]
@@ -210,7 +222,7 @@ KERNELS_END
 namespace probegi::kernels {
 static_assert(offsetof(SceneConstants, tracer) == 140 && sizeof(SceneConstants) == 204 && sizeof(LightingBlock) == 40);
 static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(BlendPush) == 112 &&
-              sizeof(EnterPush) == 32 && sizeof(TracePush) == 76);
+              sizeof(EnterPush) == 32 && sizeof(PlacementsPush) == 28 && sizeof(TracePush) == 76);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 104);
 static_assert(sizeof(TasksPush) == 24 && sizeof(FilterPush) == 76 && sizeof(GpuProbeStep) == 80);
 static_assert(sizeof(ToneMapPush) == 36 && sizeof(GpuSurface) == 76);

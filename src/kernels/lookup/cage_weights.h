@@ -42,8 +42,9 @@ LOOKUP_FN void weighProbes(IN(Access) access, IN(Volume) v, IN(Cage) cage, IN(Ca
         const int x = corner & 1;
         const int y = (corner >> 1) & 1;
         const int z = corner >> 2;
-        const Real3 toProbe = toBase + Real3(vec3(x, y, z) * v.spacing);
         const Int slot = cornerSlot(v, slots, corner);
+        Real3 toProbe = toBase + Real3(vec3(x, y, z) * v.spacing);
+        if (v.relocated != 0) toProbe = toProbe + probeOffset(v, storedPlacement(access, slot));
         const Real product = dot(toProbe, cage.normal);
         const Real facing = backfaceWeight(cosineToProbe(product, length(toProbe), v.minSpacing), access.rules);
         const Real visible = guardSeen(access, v, slot, cage.bias - toProbe) * givenVisibility(access, corner);
@@ -65,6 +66,15 @@ KERNEL_FN Real frontWeight(IN(CageWeights) w, Bool alongX, Bool alongZ, Bool up,
     const int y = (k & 1) | ((k & 2) << 1);
     return select(alongX, select(up, w.weight[2 * k + 1], w.weight[2 * k]),
                   select(alongZ, select(up, w.weight[k + 4], w.weight[k]), select(up, w.weight[y + 2], w.weight[y])));
+}
+
+// Cells between the probes of a pair along its axis, from front to beyond.
+LOOKUP_FN Real cellsBetween(IN(Access) access, IN(Volume) v, Int front, Int beyond, Int axis, Bool up) {
+    const Real more = component(
+        axis, probeOffset(v, storedPlacement(access, beyond)) - probeOffset(v, storedPlacement(access, front)));
+    const Real cells = more * component(axis, Real3(v.inverseSpacing));
+    // No nearer than a half: what two probes side by side differ by is mostly noise.
+    return max(Real(0.5f), Real(1.0f) + select(up, cells, Real(0.0f) - cells));
 }
 
 LOOKUP_FN void weighPairs(IN(Access) access, IN(Volume) v, IN(Cage) cage, IN(CageSlots) slots, INOUT(CageWeights) w) {
@@ -98,11 +108,18 @@ LOOKUP_FN void weighPairs(IN(Access) access, IN(Volume) v, IN(Cage) cage, IN(Cag
         const Int slot = front + select(alongX, slots.y[k & 1], slots.x[k & 1]) +
                          select(alongZ, slots.y[k >> 1], slots.z[k >> 1]) + v.firstSlot;
         const Real outside = outsideWeight(storedBackfaceShare(access, slot + w.step), kRulesMeasured);
-        const Real pair =
-            frontWeight(w, alongX, alongZ, up, k) * alongAxis * outside * guardBetween(access, v, slot, along, spacing);
+        Real cells = Real(1.0f);
+        Real distance = spacing;
+        if (v.relocated != 0) {
+            cells = cellsBetween(access, v, slot, slot + w.step, w.axis, up);
+            distance = spacing * cells;
+        }
+        const Real pair = frontWeight(w, alongX, alongZ, up, k) * alongAxis * outside *
+                          guardBetween(access, v, slot, along, distance);
         pairSum = pairSum + pair;
         w.front[k] = frontCorner(w.axis, w.up, k);
         w.pair[k] = pair;
+        if (v.relocated != 0) w.pair[k] = pair / cells;
     }
     w.pairSum = pairSum;
     w.cells = cellsAhead(w.ahead, spacing, onAxis);

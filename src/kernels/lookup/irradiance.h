@@ -18,7 +18,8 @@ LOOKUP_FN vec3 neighboursIrradiance(IN(Access) access, IN(Volume) v, IN(Cage) ca
         const int slot = probeSlot(v, cell);
         const float outside = outsideWeight(storedBackfaceShare(access, slot), access.rules);
         if (outside <= 0.0f) continue;
-        const vec3 toProbe = probePlace(v, cell) - cage.position;
+        vec3 toProbe = probePlace(v, cell) - cage.position;
+        if (v.relocated != 0) toProbe += probeOffset(v, storedPlacement(access, slot));
         const float visible = guardFar(access, v, slot, cage.bias - toProbe);
         const float weight = neighbourWeight(outside, toProbe, cage.normal, visible, v.minSpacing);
         const vec3 stored = storedIrradiance(access, slot, at);

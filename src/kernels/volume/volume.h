@@ -20,6 +20,7 @@ struct Volume {
     vec4 orientation;   // unit quaternion (x, y, z, w) from the volume's frame to the world
     ivec3 phase;        // of scrolling, 0..counts-1: where cell (0, 0, 0) lies in the ring of each axis
     float maxDistance;  // metres; farthest distance that visibility distinguishes
+    int relocated;      // 0: all probes stand on the lattice, and offsets are not looked at
 };
 
 // The ring's place of a cell on one axis, 0 <= cell < count.
@@ -77,7 +78,7 @@ KERNELS_END
 #ifdef __cplusplus
 namespace probegi::kernels {
 static_assert(offsetof(Volume, spacing) == 16 && offsetof(Volume, counts) == 48 && offsetof(Volume, phase) == 80 &&
-              sizeof(Volume) == 96);
+              sizeof(Volume) == 100);
 }  // namespace probegi::kernels
 #endif
 

@@ -1,6 +1,7 @@
 #include "vulkan/field/field_mirror.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "field/snapshot.h"
 #include "kernels/probe/irradiance_decoding.h"
@@ -83,7 +84,10 @@ FieldMirror::FieldMirror(const FieldPasses& passes) : m_passes(passes), m_desc(p
     });
     m_irradiance = contents<std::uint16_t>(irradiance, 0, kHalvesOfTexel * irradianceTexels);
     m_visibility = contents<std::uint32_t>(visibility, 0, visibilityTexels);
-    m_shares = contents<float>(states, 1, probes);
+    // After the count of fallbacks, which is as long as one of the members.
+    const auto words = contents<std::uint32_t>(states, 1, 2 * probes);
+    m_statuses.resize(probes);
+    std::memcpy(m_statuses.data(), words.data(), words.size() * sizeof(words[0]));
     m_sides = contents<kernels::ProbeSides>(sides, 0, probes);
     m_filters = contents<kernels::PackedProbeFilter>(filters, 0, probes);
 }
@@ -132,7 +136,7 @@ FieldSnapshot FieldMirror::read(SlotRange slots) const {
     for (std::size_t i = 0; i < snapshot.states.size(); ++i) {
         const std::size_t slot = std::size_t(slots.first) + i;
         readMaps(snapshot, i, int(slot));
-        snapshot.states[i] = probeState(m_shares[slot], m_sides[slot], m_filters[slot]);
+        snapshot.states[i] = probeState(m_statuses[slot].backfaceShare, m_sides[slot], m_filters[slot]);
     }
     return snapshot;
 }
@@ -141,7 +145,7 @@ void FieldMirror::write(const FieldSnapshot& snapshot) {
     for (std::size_t i = 0; i < snapshot.states.size(); ++i) {
         const std::size_t slot = std::size_t(snapshot.slots.first) + i;
         writeMaps(snapshot, i, int(slot));
-        m_shares[slot] = snapshot.states[i].backfaceShare;
+        m_statuses[slot] = {snapshot.states[i].backfaceShare, snapshot.states[i].placement};
         m_sides[slot] = sidesOf(snapshot.states[i]);
         m_filters[slot] = filterOf(snapshot.states[i]);
     }
@@ -151,13 +155,13 @@ void FieldMirror::write(const FieldSnapshot& snapshot) {
 void FieldMirror::upload() const {
     const Device& device = m_passes.device();
     const Buffer irradiance = uploadBuffer(device, m_irradiance), visibility = uploadBuffer(device, m_visibility);
-    const Buffer shares = uploadBuffer(device, m_shares), sides = uploadBuffer(device, m_sides),
+    const Buffer statuses = uploadBuffer(device, m_statuses), sides = uploadBuffer(device, m_sides),
                  filters = uploadBuffer(device, m_filters);
     submitAndWait(device, [&](const Recorder& recorder) {
         recorder.orderAll();
         copyImage(recorder, irradiance, m_passes.irradiance());
         copyImage(recorder, visibility, m_passes.visibility());
-        recorder.copy(shares, m_passes.states(), shares.bytes(), sizeof(std::uint32_t));
+        recorder.copy(statuses, m_passes.states(), statuses.bytes(), sizeof(std::uint32_t));
         recorder.copy(sides, m_passes.sides(), sides.bytes());
         recorder.copy(filters, m_passes.filters(), filters.bytes());
         recorder.orderAll();
@@ -166,8 +170,9 @@ void FieldMirror::upload() const {
 
 ProbeLight FieldMirror::light() const {
     const int side = m_desc.irradianceTexels;
-    ProbeLight light{std::vector<float>(m_shares.size()), m_shares};
-    for (std::size_t probe = 0; probe < m_shares.size(); ++probe) {
+    ProbeLight light{std::vector<float>(m_statuses.size()), std::vector<float>(m_statuses.size())};
+    for (std::size_t probe = 0; probe < m_statuses.size(); ++probe) {
+        light.backfaceShares[probe] = m_statuses[probe].backfaceShare;
         float sum = 0;
         for (int t = 0; t < side * side; ++t) {
             const std::size_t texel = texelIndex(m_passes.irradiance(), side, int(probe), {t % side, t / side});

@@ -31,7 +31,7 @@ private:
     FieldDesc m_desc;
     std::vector<std::uint16_t> m_irradiance;  // four halves per texel
     std::vector<std::uint32_t> m_visibility;
-    std::vector<float> m_shares;
+    std::vector<kernels::ProbeStatus> m_statuses;
     std::vector<kernels::ProbeSides> m_sides;
     std::vector<kernels::PackedProbeFilter> m_filters;
 };

@@ -61,7 +61,7 @@ FieldPasses::FieldPasses(const Device& device, const FieldDesc& desc)
       m_volumes(makeVolumes(desc)),
       m_constants(device.impl(), "field constants", sizeof(kernels::FieldConstants),
                   vk::BufferUsageFlagBits::eUniformBuffer | vk::BufferUsageFlagBits::eTransferDst),
-      m_states(device.impl(), "probe states", sizeof(std::uint32_t) + m_layout.probes * sizeof(float),
+      m_states(device.impl(), "probe states", sizeof(std::uint32_t) + m_layout.probes * sizeof(kernels::ProbeStatus),
                vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst |
                    vk::BufferUsageFlagBits::eTransferSrc),
       m_tasks(device.impl(), "tasks", sizeof(kernels::GpuTaskCounts) + m_layout.probes * sizeof(ProbeTask),
@@ -202,6 +202,20 @@ void FieldPasses::recordEnter(const Recorder& recorder, const FieldSettings& set
                                      .cells = cells});
     recorder.dispatchOver("enter_volume", std::size_t(kernels::volumeProbes(m_volumes[std::size_t(volume)])));
     recorder.orderAll();
+}
+
+void FieldPasses::recordPlacements(const Recorder& recorder, const FieldSettings& settings,
+                                   VkDeviceAddress placements) {
+    recordSettings(recorder, settings);
+    recorder.orderAll();
+    recorder.bindVolume(set());
+    recorder.push(kernels::PlacementsPush{.placements = packAddress(placements),
+                                          .sides = packAddress(m_sides.address()),
+                                          .filters = packAddress(m_filters.address()),
+                                          .count = std::uint32_t(m_layout.probes)});
+    recorder.dispatchOver("set_placements", m_layout.probes);
+    recorder.orderAll();
+    m_recordedTasks.reset();  // origins are elsewhere
 }
 
 void FieldPasses::recordSettings(const Recorder& recorder, const FieldSettings& settings) {

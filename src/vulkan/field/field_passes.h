@@ -35,6 +35,8 @@ public:
     void prepareEnter() { m_device.impl().pipelines->get("enter_volume"); }
     /// After place(): FieldBackend::enter().
     void recordEnter(const Recorder& recorder, const FieldSettings& settings, int volume, glm::ivec3 cells);
+    /// FieldBackend::setPlacements(), from GpuPlacement[slot].
+    void recordPlacements(const Recorder& recorder, const FieldSettings& settings, VkDeviceAddress placements);
     /// Clears all probes. From here on, `settings` are what shaders that read the field see.
     void recordClear(const Recorder& recorder, const FieldSettings& settings);
     /// Traces and shades the rays of the tasks, then blends the ray data.

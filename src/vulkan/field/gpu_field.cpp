@@ -28,6 +28,10 @@ GpuField::~GpuField() = default;
 Result<GpuField> GpuField::create(const Device& device, const FieldDesc& desc, const FieldSettings& settings) {
     if (auto ok = validateFieldDesc(desc); !ok) return ok.error();
     if (auto ok = validateFieldSettings(settings); !ok) return ok.error();
+    if (desc.relocation || desc.probeStates)
+        return fail(ErrorCode::unsupported,
+                    "recorded updates neither relocate probes nor put them to sleep yet; make the field without "
+                    "relocation and probeStates");
     return guarded("making a field", [&] { return GpuField(std::make_unique<Impl>(device, desc, settings)); });
 }
 

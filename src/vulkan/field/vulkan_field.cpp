@@ -202,6 +202,21 @@ Result<void> VulkanField::enter(const FieldSettings& settings, int volume, glm::
     });
 }
 
+Result<void> VulkanField::setPlacements(const FieldSettings& settings, std::span<const std::uint32_t> placements,
+                                        std::span<const std::uint32_t> renewed) {
+    const std::lock_guard lock(m_mutex);
+    m_mirror.reset();
+    return attempted("placing probes", [&] {
+        std::vector<kernels::GpuPlacement> all;
+        all.reserve(placements.size());
+        for (const std::uint32_t word : placements) all.push_back({word, 0});
+        for (const std::uint32_t slot : renewed) all[slot].renewed = 1;
+        m_exchange.begin(all.size() * sizeof(all[0]), 16);
+        const VkDeviceAddress address = m_exchange.add(std::span<const kernels::GpuPlacement>(all));
+        m_exchange.run([&](const Recorder& recorder) { m_passes.recordPlacements(recorder, settings, address); }, 0);
+    });
+}
+
 Result<FieldSnapshot> VulkanField::read(SlotRange slots) const {
     const std::lock_guard lock(m_mutex);
     return guarded("reading probes", [&] { return mirror().read(slots); });

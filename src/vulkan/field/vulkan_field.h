@@ -26,6 +26,8 @@ public:
     Result<ProbeLight> light() const override;
     void place(std::span<const kernels::Volume> volumes) noexcept override;
     Result<void> enter(const FieldSettings& settings, int volume, glm::ivec3 cells) override;
+    Result<void> setPlacements(const FieldSettings& settings, std::span<const std::uint32_t> placements,
+                               std::span<const std::uint32_t> renewed) override;
     Result<FieldSnapshot> read(SlotRange slots) const override;
     Result<void> write(const FieldSnapshot& snapshot) override;
 

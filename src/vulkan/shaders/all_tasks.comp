@@ -10,7 +10,6 @@ void main() {
     const uint slot = globalIndex();
     if (slot >= push.count) return;
     const int number = probegiVolumeOf(int(slot));
-    const Volume volume = probegiField.volumes[number];
-    Tasks(push.tasks).at[slot] = ProbeTask(probePosition(volume, probeCell(volume, int(slot))), slot, uint(number));
+    Tasks(push.tasks).at[slot] = ProbeTask(probegiProbePosition(int(slot)), slot, uint(number));
     if (slot == 0u) Tasks(push.tasks).counts.tasks = push.count;
 }

@@ -108,8 +108,8 @@ void storeSides(int local, uint slot) {
     if (push.steps != uvec2(0u)) kept = ProbeSteps(push.steps).at[slot].visibilityKept;
     const ProbeSides sides = rememberSides(Sides(push.sides).at[slot], seen, push.rays, kept);
     Sides(push.sides).at[slot] = sides;
-    probegiStates.backfaceShare[slot] =
-        mix(solidShare(sides, seen, push.rays), probegiStates.backfaceShare[slot], kept);
+    probegiStates.at[slot].backfaceShare =
+        mix(solidShare(sides, seen, push.rays), probegiStates.at[slot].backfaceShare, kept);
 }
 
 void storeChange(int local, int task, int tasks) {

@@ -10,6 +10,10 @@ layout(push_constant, scalar) uniform Push {
     SolidPush push;
 };
 
+vec3 offsetOf(Volume volume, int slot) {
+    return probeOffset(volume, int(probegiStates.at[slot].placement));
+}
+
 // Length of the shortest path into the open through one of the 26 neighbours.
 uint stepsByNeighbours(ProbeTask task) {
     const Volume volume = probegiField.volumes[task.volume];
@@ -25,7 +29,8 @@ uint stepsByNeighbours(ProbeTask task) {
                 const int neighbour = probeSlot(volume, at);
                 const uint by = stepsBy(Sides(push.sides).at[neighbour].steps);
                 if (by >= steps || neighbour == probe) continue;
-                const vec3 way = vec3(at - cell) * volume.spacing;
+                vec3 way = vec3(at - cell) * volume.spacing;
+                if (volume.relocated != 0) way += offsetOf(volume, neighbour) - offsetOf(volume, probe);
                 const float distance = length(way);
                 const vec3 direction = toWorldDirection(volume, way / distance);
                 if (freeWay(probegiMoments(probe, direction).x, probegiMoments(neighbour, -direction).x,

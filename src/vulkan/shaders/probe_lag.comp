@@ -31,5 +31,5 @@ void main() {
     const ProbeSight sight = sightOfTask(index, probegiField.volumes[task.volume].maxDistance);
     ProbeSteps(push.steps).at[probe].sight = sight;
     ProbeSteps(push.steps).at[probe].lag = lagHeard(probeLag(sight, unpackFilter(ProbeFilters(push.filters).at[probe])),
-                                                    probegiStates.backfaceShare[probe]);
+                                                    probegiStates.at[probe].backfaceShare);
 }

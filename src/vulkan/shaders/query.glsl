@@ -18,6 +18,7 @@
 #include "kernels/abi/field_constants.h"
 #include "kernels/lookup/access.h"
 #include "kernels/probe/octahedral.h"
+#include "kernels/volume/placed_probe.h"
 #include "kernels/volume/volume_choice.h"
 
 #ifndef PROBEGI_SET
@@ -39,7 +40,7 @@ layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 1) uniform sampler2DArray 
 layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 2) uniform sampler2DArray probegiVisibilityAtlas;
 layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 3, scalar) PROBEGI_STATES_ACCESS buffer ProbegiStates {
     uint fallbacks;
-    float backfaceShare[];
+    ProbeStatus at[];
 }
 probegiStates;
 
@@ -57,7 +58,7 @@ int probegiProbeCount() {
 }
 vec3 probegiProbePosition(int slot) {
     const Volume v = probegiField.volumes[probegiVolumeOf(slot)];
-    return probePosition(v, probeCell(v, slot));
+    return placedPosition(v, probeCell(v, slot), probegiStates.at[slot].placement);
 }
 
 // Atlas coordinates of a point of a slot's map; `texel` is the point's octTexelPosition().
@@ -105,7 +106,10 @@ void momentsOnAxis(Access access, Volume v, int slot, vec2 at, out float mean, o
     storedMoments(access, slot, at, mean, meanSquare);
 }
 float storedBackfaceShare(Access access, int slot) {
-    return probegiStates.backfaceShare[slot];
+    return probegiStates.at[slot].backfaceShare;
+}
+int storedPlacement(Access access, int slot) {
+    return int(probegiStates.at[slot].placement);
 }
 vec3 storedIrradiance(Access access, int slot, vec2 at) {
     return textureLod(probegiIrradianceAtlas, probegiIrradianceAt(slot, at), 0.0).rgb;

@@ -47,6 +47,9 @@ KERNEL_FN void momentsOnAxis(Access access, Volume, int slot, vec3 at, OUT(float
 KERNEL_FN float storedBackfaceShare(Access access, int slot) {
     return slot % 3 == 0 ? access.walls : 0.0f;
 }
+KERNEL_FN int storedPlacement(Access, int slot) {
+    return int(uint(slot) * 0x9e3779b9u);
+}
 KERNEL_FN vec3 storedIrradiance(Access, int slot, vec3 at) {
     return vec3(0.9f + 0.1f * float(slot & 3), 1.0f + 0.2f * at.z, 0.5f + 0.02f * float(slot % 11));
 }

@@ -23,6 +23,7 @@ KERNEL_FN Volume takeVolume(INOUT(Lane) lane) {
     v.phase = ivec3(phaseX, phaseY, phaseZ);
     v.firstSlot = 1000 * takeIndex(lane, 3);
     v.turned = takeIndex(lane, 2);
+    v.relocated = takeIndex(lane, 2);
     const vec3 axis = takeDirection(lane);
     const float half_ = takeBetween(lane, -1.5f, 1.5f);
     const float s = sin(half_);

@@ -1,0 +1,116 @@
+#include "placement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace probegi::accuracy {
+
+namespace {
+
+constexpr int kPoints = 1500;
+constexpr int kPathsPerPoint = 512;
+constexpr float kTolerance = 0.01f;
+constexpr int kMostUpdates = 96;
+constexpr int kTimedUpdates = 5;
+
+struct Variant {
+    const char* name;
+    bool relocation, states;
+};
+constexpr Variant kVariants[] = {
+    {"lattice", false, false}, {"states", false, true}, {"relocation", true, false}, {"both", true, true}};
+
+Result<SurfaceTruth> truthOf(const Context& context, const tool::LoadedSetup& setup, const Tracer& tracer) {
+    auto points = surfacePoints(*setup.scene, setup.pose, tracer, kPoints);
+    if (!points) return points.error();
+    const auto pathTracer = PathTracer::create(context, *setup.scene, setup.pose, tracer, setup.lighting);
+    if (!pathTracer) return pathTracer.error();
+    return traceSurfaceTruth(*pathTracer, std::move(*points), kPathsPerPoint);
+}
+
+/// Median milliseconds of an update.
+Result<double> timeUpdates(Field& field, const Tracer& tracer, const Lighting& lighting) {
+    std::vector<double> times;
+    for (int i = 0; i < kTimedUpdates; ++i) {
+        const auto done = field.update(tracer, lighting);
+        if (!done) return done.error();
+        times.push_back(done->total);
+    }
+    std::nth_element(times.begin(), times.begin() + kTimedUpdates / 2, times.end());
+    return times[kTimedUpdates / 2];
+}
+
+Result<double> shareInside(const Field& field) {
+    const auto snapshot = field.read();
+    if (!snapshot) return snapshot.error();
+    const auto inside = std::count_if(snapshot->states.begin(), snapshot->states.end(), [](const ProbeState& state) {
+        return state.activity() == ProbeActivity::off || (state.backfaceShare > 0.3f && state.backfaceShare <= 1.0f);
+    });
+    return double(inside) / double(snapshot->states.size());
+}
+
+}  // namespace
+
+Result<std::vector<PlacementRow>> measurePlacement(const Context& context, const std::string& name,
+                                                   const tool::LoadedSetup& setup, LeakGuard guard) {
+    const auto tracer = makeEmbreeTracer(context, *setup.scene, setup.pose);
+    if (!tracer) return tracer.error();
+    const auto truth = truthOf(context, setup, **tracer);
+    if (!truth) return truth.error();
+    std::vector<PlacementRow> rows;
+    std::vector<double> without;  // states
+    double latticeTime = 0;
+    for (const Variant& variant : kVariants) {
+        FieldDesc desc;
+        desc.volumes = {setup.grid};
+        desc.relocation = variant.relocation;
+        desc.probeStates = variant.states;
+        FieldSettings settings;
+        settings.guard = guard;
+        auto field = Field::create(context, desc, settings);
+        if (!field) return field.error();
+        const auto done = field->converge(**tracer, setup.lighting, kTolerance, kMostUpdates);
+        if (!done) return done.error();
+        PlacementRow row{name, probeCount(setup.grid), variant.name, 0, 0, 0, 0, {}};
+        row.active = double(field->control().tasks().size()) / row.probes;
+        const auto error = compareAtSurfaces(*field, *truth);
+        if (!error) return error.error();
+        row.error = *error;
+        const auto light = lightAt(*field, truth->queries);
+        if (!light) return light.error();
+        if (!variant.states) {
+            without = *light;
+        } else if (const auto difference = compareLight(*light, without); difference) {
+            row.difference = difference->rms;
+        }
+        const auto inside = shareInside(*field);
+        if (!inside) return inside.error();
+        row.inside = *inside;
+        const auto time = timeUpdates(*field, **tracer, setup.lighting);
+        if (!time) return time.error();
+        if (latticeTime == 0) latticeTime = *time;
+        row.time = *time / latticeTime;
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+std::string placementTable(const std::vector<PlacementRow>& rows) {
+    if (rows.empty()) return {};
+    std::string text =
+        "\n### Relocation and probe states, on automatic grids\n\n"
+        "| scene | probes | placement | in walls | updated | update | mean | RMS | 5th percentile | median | 95th "
+        "percentile | against all awake |\n"
+        "|---|---:|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
+    for (const PlacementRow& row : rows)
+        text += fmt::format(
+            "| {} | {} | {} | {:.1f} % | {:.1f} % | {:.2f} | {:+.1f} % | {:.1f} % | {:.3f} | {:.3f} | {:.3f} | {:.2f} "
+            "% |\n",
+            row.scene, row.probes, row.placement, 100 * row.inside, 100 * row.active, row.time,
+            100 * (row.error.mean - 1), 100 * row.error.rms, row.error.low, row.error.median, row.error.high,
+            100 * row.difference);
+    return text;
+}
+
+}  // namespace probegi::accuracy

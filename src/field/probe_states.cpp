@@ -1,0 +1,177 @@
+#include "field/probe_states.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "kernels/lookup/probe_query.h"
+#include "kernels/probe/probe_state.h"
+#include "kernels/probe/relocation.h"
+#include "kernels/volume/volume_frame.h"
+
+namespace probegi {
+
+namespace {
+
+static_assert(std::uint32_t(ProbeActivity::uninitialized) == kernels::kUninitialized &&
+              std::uint32_t(ProbeActivity::off) == kernels::kOff &&
+              std::uint32_t(ProbeActivity::sleeping) == kernels::kSleeping &&
+              std::uint32_t(ProbeActivity::newlyAwake) == kernels::kNewlyAwake &&
+              std::uint32_t(ProbeActivity::newlyVigilant) == kernels::kNewlyVigilant &&
+              std::uint32_t(ProbeActivity::awake) == kernels::kAwake &&
+              std::uint32_t(ProbeActivity::vigilant) == kernels::kVigilant);
+
+// Bounds of the world as those of a volume's frame.
+Bounds inVolume(const kernels::Volume& volume, const Bounds& world) {
+    Bounds bounds{glm::vec3(INFINITY), glm::vec3(-INFINITY)};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 point(corner & 1 ? world.upper.x : world.lower.x, corner & 2 ? world.upper.y : world.lower.y,
+                              corner & 4 ? world.upper.z : world.lower.z);
+        const glm::vec3 at = kernels::toVolumePoint(volume, point);
+        bounds.lower = glm::min(bounds.lower, at);
+        bounds.upper = glm::max(bounds.upper, at);
+    }
+    return bounds;
+}
+
+// How far from a surface a probe may be that its look-up reads: "a probe grid cell + the self-shadow bias" (section
+// 6.3), and by the measured rules the layer beyond.
+glm::vec3 reachOf(const kernels::Volume& volume, const FieldSettings& settings, FieldRules rules) {
+    const int number = rules == FieldRules::paper ? kernels::kRulesPaper : kernels::kRulesMeasured;
+    const glm::vec3 axis(0, 1, 0);
+    const float bias =
+        glm::length(kernels::visibilityBias(axis, axis, volume.minSpacing, settings.selfShadowBias, number));
+    return (rules == FieldRules::paper ? 1.0f : 2.0f) * volume.spacing + bias;
+}
+
+}  // namespace
+
+ProbeStates::ProbeStates(const FieldDesc& desc)
+    : m_relocation(desc.relocation), m_states(desc.probeStates), m_placements(std::size_t(probeCount(desc))) {
+    restart();
+}
+
+void ProbeStates::restart() {
+    std::fill(m_placements.begin(), m_placements.end(), watched() ? kernels::kUninitialized : kernels::kVigilant);
+    m_new = watched() ? m_placements.size() : 0;
+    if (m_states) m_near.assign(m_placements.size(), 0);
+    m_renewed.clear();
+    m_changed = watched();
+}
+
+bool ProbeStates::isNew(std::size_t slot) const noexcept {
+    return kernels::stateOf(m_placements[slot]) == kernels::kUninitialized;
+}
+
+bool ProbeStates::isTask(std::size_t slot) const noexcept {
+    return isNew(slot) || kernels::isActive(kernels::stateOf(m_placements[slot]));
+}
+
+bool ProbeStates::allAreTasks() const noexcept {
+    if (!m_states) return true;
+    for (std::size_t slot = 0; slot < m_placements.size(); ++slot)
+        if (!isTask(slot)) return false;
+    return true;
+}
+
+void ProbeStates::renew(std::size_t slot) {
+    m_renewed.push_back(std::uint32_t(slot));
+    m_changed = true;
+}
+
+void ProbeStates::happen(std::size_t slot, std::uint32_t event) {
+    const std::uint32_t before = kernels::stateOf(m_placements[slot]);
+    const std::uint32_t after = kernels::nextProbeState(before, event);
+    if (after == before) return;
+    m_placements[slot] = kernels::withState(m_placements[slot], after);
+    m_changed = true;
+    if (before == kernels::kUninitialized) --m_new;
+    if (kernels::isUnused(after)) renew(slot);
+}
+
+void ProbeStates::enter(const kernels::Volume& volume, glm::ivec3 cells) {
+    if (!watched()) return;
+    for (int slot = volume.firstSlot; slot < volume.firstSlot + kernels::volumeProbes(volume); ++slot) {
+        if (!kernels::hasEntered(volume, kernels::probeCell(volume, slot), cells)) continue;
+        std::uint32_t& placement = m_placements[std::size_t(slot)];
+        if (!isNew(std::size_t(slot))) ++m_new;
+        placement = kernels::kUninitialized;
+        m_changed = true;
+    }
+}
+
+void ProbeStates::watch(std::span<const Bounds> moving, std::span<const Bounds> media) {
+    m_moving.assign(moving.begin(), moving.end());
+    m_media.assign(media.begin(), media.end());
+}
+
+void ProbeStates::wake(std::span<const kernels::Volume> volumes, const FieldSettings& settings, FieldRules rules) {
+    if (!m_states) return;
+    std::fill(m_near.begin(), m_near.end(), std::uint8_t(0));
+    for (const kernels::Volume& volume : volumes)
+        for (const auto* boxes : {&m_moving, &m_media})
+            for (const Bounds& box : *boxes) {
+                const Bounds local = inVolume(volume, box);
+                const glm::vec3 reach = reachOf(volume, settings, rules), last(volume.counts - 1);
+                const glm::vec3 from = glm::ceil((local.lower - reach - volume.origin) * volume.inverseSpacing);
+                const glm::vec3 to = glm::floor((local.upper + reach - volume.origin) * volume.inverseSpacing);
+                const glm::ivec3 lowest(glm::clamp(from, glm::vec3(0), last + 1.0f));
+                const glm::ivec3 highest(glm::clamp(to, glm::vec3(-1), last));
+                for (int z = lowest.z; z <= highest.z; ++z)
+                    for (int y = lowest.y; y <= highest.y; ++y)
+                        for (int x = lowest.x; x <= highest.x; ++x)
+                            m_near[std::size_t(kernels::probeSlot(volume, {x, y, z}))] = 1;
+            }
+    for (std::size_t slot = 0; slot < m_placements.size(); ++slot)
+        happen(slot, m_near[slot] ? kernels::kMoverNear : kernels::kMoverGone);
+}
+
+void ProbeStates::placed(std::span<const std::uint32_t> placements, std::span<const std::uint8_t> surfaces) {
+    for (std::size_t slot = 0; slot < m_placements.size(); ++slot) {
+        if (!isNew(slot)) {
+            if (surfaces[slot]) happen(slot, kernels::kSurfaceFound);
+            continue;
+        }
+        const std::uint32_t word = placements[slot];
+        if (word == m_placements[slot]) continue;  // no task of this update
+        const bool used = surfaces[slot] || (word & kernels::kSurfaceBit) != 0;
+        m_placements[slot] = used ? word | kernels::kSurfaceBit : word;
+        renew(slot);  // what it knows, it saw from elsewhere
+        if (kernels::looksOf(word) < kernels::looksOfPlacement(m_relocation)) continue;
+        const bool inside = (word & kernels::kInsideBit) != 0;
+        m_placements[slot] &= ~kernels::kPlacingBits;
+        happen(slot, !m_states || (used && !inside) ? kernels::kSurfaceFound
+                     : inside                       ? kernels::kPlacedInside
+                                                    : kernels::kPlacedInOpen);
+    }
+}
+
+void ProbeStates::updated(std::span<const ProbeTask> tasks) noexcept {
+    if (!watched()) return;
+    for (const ProbeTask& task : tasks) {
+        std::uint32_t& placement = m_placements[task.slot];
+        placement =
+            kernels::withState(placement, kernels::nextProbeState(kernels::stateOf(placement), kernels::kUpdated));
+    }
+}
+
+void ProbeStates::replace(SlotRange slots, std::span<const std::uint32_t> placements) {
+    if (!watched()) return;
+    std::copy(placements.begin(), placements.end(), m_placements.begin() + slots.first);
+    m_new = 0;
+    for (std::size_t slot = 0; slot < m_placements.size(); ++slot) m_new += isNew(slot) ? 1 : 0;
+    m_renewed.clear();
+    m_changed = true;
+}
+
+void ProbeStates::told() noexcept {
+    m_renewed.clear();
+    m_changed = false;
+}
+
+std::size_t ProbeStates::bytes() const noexcept {
+    return m_placements.capacity() * sizeof(m_placements[0]) + m_near.capacity() +
+           (m_moving.capacity() + m_media.capacity()) * sizeof(Bounds) + m_renewed.capacity() * sizeof(m_renewed[0]);
+}
+
+}  // namespace probegi

@@ -1,0 +1,53 @@
+// Which probes a look-up at a point of a surface may read: those of its cage, and by the measured rules the layer
+// beyond its front (surface_gradient.h). These must be awake.
+#ifndef PROBEGI_KERNELS_USED_PROBES_H
+#define PROBEGI_KERNELS_USED_PROBES_H
+
+#include "kernels/lookup/access.h"
+#include "kernels/volume/probe_cage.h"
+
+KERNELS_BEGIN
+
+// A box of cells, both ends included.
+struct UsedProbes {
+    ivec3 lowest;
+    ivec3 highest;
+};
+
+// The cells on one axis. `place`: in spacings; `reach`: how far viewers move the point before its cage is chosen.
+KERNEL_FN int lowestUsed(float place, float reach, int count) {
+    return int(clamp(floor(place - reach), 0.0f, float(count - 2)));
+}
+KERNEL_FN int highestUsed(float place, float reach, int count) {
+    return int(clamp(floor(place + reach), 0.0f, float(count - 2))) + 1;
+}
+
+// `point` and `normal`: in the world, metres and unit. A point outside the volume uses none: `lowest` is above
+// `highest` then.
+KERNEL_FN UsedProbes usedProbes(IN(Volume) v, vec3 point, vec3 normal, float tunableBias, int rules) {
+    UsedProbes used;
+    used.lowest = ivec3(1);
+    used.highest = ivec3(0);
+    const vec3 inVolume = toVolumePoint(v, point);
+    const vec3 apart = inVolume - clampToVolume(v, inVolume);
+    if (dot(apart, apart) > v.minSpacing * v.minSpacing) return used;
+    const vec3 place = gridCoordinates(v, clampToVolume(v, inVolume));
+    const vec3 facing = toVolumeDirection(v, normal);
+    const vec3 reach = length(cageBias(facing, facing, v.minSpacing, tunableBias, rules)) * v.inverseSpacing;
+    used.lowest = ivec3(lowestUsed(place.x, reach.x, v.counts.x), lowestUsed(place.y, reach.y, v.counts.y),
+                        lowestUsed(place.z, reach.z, v.counts.z));
+    used.highest = ivec3(highestUsed(place.x, reach.x, v.counts.x), highestUsed(place.y, reach.y, v.counts.y),
+                         highestUsed(place.z, reach.z, v.counts.z));
+    if (rules == kRulesPaper) return used;
+    const int axis = dominantAxis(facing);
+    const ivec3 beyond = ivec3(axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0);
+    if (component(axis, facing) > 0.0f)
+        used.highest = min(used.highest + beyond, v.counts - 1);
+    else
+        used.lowest = max(used.lowest - beyond, ivec3(0));
+    return used;
+}
+
+KERNELS_END
+
+#endif
