@@ -40,6 +40,7 @@ struct RenderOptions {
     std::optional<int> samplesPerPixel;
     std::optional<double> seconds;
     bool guide = false;
+    bool relocation = false, probeStates = false;
 };
 
 const char* const kFooter =
@@ -68,6 +69,8 @@ Result<std::optional<Field>> makeField(const Backend& backend, const Tracer& tra
     desc.raysPerProbe = options.rays;
     desc.seed = options.seed;
     desc.rules = options.rules;
+    desc.relocation = options.relocation;
+    desc.probeStates = options.probeStates;
     FieldSettings settings;
     if (options.rules == FieldRules::paper) settings.visibilityExponent = kPaperVisibilityExponent;
     settings.guard = options.method == Method::leaky ? LeakGuard::none : LeakGuard::moments;
@@ -78,6 +81,7 @@ Result<std::optional<Field>> makeField(const Backend& backend, const Tracer& tra
     auto run = runField(*field, tracer, setup.lighting, options.run);
     if (!run) return run.error();
     stats.run = std::move(*run);
+    stats.active = int(field->control().tasks().size());
     return std::move(*field);
 }
 
@@ -119,6 +123,8 @@ void warnAboutUnusedOptions(const RenderOptions& options) {
     const bool probes = options.method != Method::none && (!reference || options.guide);
     if (!probes && (options.run.frames || options.run.tolerance))
         printWarning("--frames and --tolerance act on --method ddgi and leaky, and on --guide on, only");
+    if (!probes && (options.relocation || options.probeStates))
+        printWarning("--relocation and --probe-states act on --method ddgi and leaky only");
     if (!probes && options.rules == FieldRules::paper) printWarning("--rules acts on --method ddgi and leaky only");
 }
 
@@ -205,6 +211,18 @@ void addMethodOptions(CLI::App& command, RenderOptions& options) {
         ->type_name("N")
         ->check(inRange(8, 4096))
         ->capture_default_str();
+    static const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
+    command
+        .add_option("--relocation", options.relocation,
+                    "probes leave walls and keep a distance from surfaces (default off)")
+        ->type_name("on|off")
+        ->transform(oneOf(kOnOff));
+    command
+        .add_option("--probe-states", options.probeStates,
+                    "do not update probes in the open air and in walls, which no surface uses: a third faster in rooms "
+                    "(default off)")
+        ->type_name("on|off")
+        ->transform(oneOf(kOnOff));
     addFieldRunOptions(command, options.run);
     command.add_option("--spp", options.samplesPerPixel, "reference: samples per pixel (default 64 without --time)")
         ->type_name("N")
@@ -212,7 +230,6 @@ void addMethodOptions(CLI::App& command, RenderOptions& options) {
     command.add_option("--time", options.seconds, "reference: stop after this many seconds")
         ->type_name("SECONDS")
         ->check(inRange(0.001, 1e6));
-    static const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
     command
         .add_option("--guide", options.guide,
                     "reference: guide paths by a converged field; changes only the picture's noise (default off: "

@@ -33,6 +33,7 @@ std::string statsJson(const RenderStats& stats) {
     if (convergence && std::isfinite(convergence->remaining)) remaining = convergence->remaining;
     const nlohmann::ordered_json json{
         {"probes", stats.probes},
+        {"activeProbes", stats.active},
         {"raysPerProbe", stats.raysPerProbe},
         {"frames", stats.run.updates.size()},
         {"converged", converged},

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
 
 #include "core/parallel.h"
 #include "field/layout.h"
@@ -73,7 +71,7 @@ public:
 private:
     bool moves(glm::vec3 point) const {
         return std::any_of(m_moving.begin(), m_moving.end(), [&](const Bounds& box) {
-            return glm::all(glm::greaterThanEqual(point, box.lower)) && glm::all(glm::lessThanEqual(point, box.upper));
+            return kernels::holdsPoint({box.lower, box.upper}, point);
         });
     }
 

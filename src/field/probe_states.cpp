@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
-#include "kernels/lookup/probe_query.h"
 #include "kernels/probe/probe_state.h"
 #include "kernels/probe/relocation.h"
-#include "kernels/volume/volume_frame.h"
 
 namespace probegi {
 
@@ -20,29 +17,6 @@ static_assert(std::uint32_t(ProbeActivity::uninitialized) == kernels::kUninitial
               std::uint32_t(ProbeActivity::newlyVigilant) == kernels::kNewlyVigilant &&
               std::uint32_t(ProbeActivity::awake) == kernels::kAwake &&
               std::uint32_t(ProbeActivity::vigilant) == kernels::kVigilant);
-
-// Bounds of the world as those of a volume's frame.
-Bounds inVolume(const kernels::Volume& volume, const Bounds& world) {
-    Bounds bounds{glm::vec3(INFINITY), glm::vec3(-INFINITY)};
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 point(corner & 1 ? world.upper.x : world.lower.x, corner & 2 ? world.upper.y : world.lower.y,
-                              corner & 4 ? world.upper.z : world.lower.z);
-        const glm::vec3 at = kernels::toVolumePoint(volume, point);
-        bounds.lower = glm::min(bounds.lower, at);
-        bounds.upper = glm::max(bounds.upper, at);
-    }
-    return bounds;
-}
-
-// How far from a surface a probe may be that its look-up reads: "a probe grid cell + the self-shadow bias" (section
-// 6.3), and by the measured rules the layer beyond.
-glm::vec3 reachOf(const kernels::Volume& volume, const FieldSettings& settings, FieldRules rules) {
-    const int number = rules == FieldRules::paper ? kernels::kRulesPaper : kernels::kRulesMeasured;
-    const glm::vec3 axis(0, 1, 0);
-    const float bias =
-        glm::length(kernels::visibilityBias(axis, axis, volume.minSpacing, settings.selfShadowBias, number));
-    return (rules == FieldRules::paper ? 1.0f : 2.0f) * volume.spacing + bias;
-}
 
 }  // namespace
 
@@ -108,22 +82,29 @@ void ProbeStates::watch(std::span<const Bounds> moving, std::span<const Bounds> 
 void ProbeStates::wake(std::span<const kernels::Volume> volumes, const FieldSettings& settings, FieldRules rules) {
     if (!m_states) return;
     std::fill(m_near.begin(), m_near.end(), std::uint8_t(0));
-    for (const kernels::Volume& volume : volumes)
+    const int number = rules == FieldRules::paper ? kernels::kRulesPaper : kernels::kRulesMeasured;
+    for (const kernels::Volume& volume : volumes) {
+        const glm::vec3 reach = kernels::moverReach(volume, settings.selfShadowBias, number);
         for (const auto* boxes : {&m_moving, &m_media})
-            for (const Bounds& box : *boxes) {
-                const Bounds local = inVolume(volume, box);
-                const glm::vec3 reach = reachOf(volume, settings, rules), last(volume.counts - 1);
-                const glm::vec3 from = glm::ceil((local.lower - reach - volume.origin) * volume.inverseSpacing);
-                const glm::vec3 to = glm::floor((local.upper + reach - volume.origin) * volume.inverseSpacing);
-                const glm::ivec3 lowest(glm::clamp(from, glm::vec3(0), last + 1.0f));
-                const glm::ivec3 highest(glm::clamp(to, glm::vec3(-1), last));
-                for (int z = lowest.z; z <= highest.z; ++z)
-                    for (int y = lowest.y; y <= highest.y; ++y)
-                        for (int x = lowest.x; x <= highest.x; ++x)
-                            m_near[std::size_t(kernels::probeSlot(volume, {x, y, z}))] = 1;
-            }
+            for (const Bounds& box : *boxes)
+                markNear(volume, kernels::boxInVolume(volume, box.lower, box.upper), reach);
+    }
     for (std::size_t slot = 0; slot < m_placements.size(); ++slot)
         happen(slot, m_near[slot] ? kernels::kMoverNear : kernels::kMoverGone);
+}
+
+// Of the cells around the box, those that kernels::isNearBox() says.
+void ProbeStates::markNear(const kernels::Volume& volume, const kernels::Box& box, glm::vec3 reach) {
+    const glm::vec3 last(volume.counts - 1);
+    const glm::vec3 from = glm::floor((box.lower - reach - volume.origin) * volume.inverseSpacing);
+    const glm::vec3 to = glm::ceil((box.upper + reach - volume.origin) * volume.inverseSpacing);
+    const glm::ivec3 lowest(glm::clamp(from, glm::vec3(0), last + 1.0f));
+    const glm::ivec3 highest(glm::clamp(to, glm::vec3(-1), last));
+    for (int z = lowest.z; z <= highest.z; ++z)
+        for (int y = lowest.y; y <= highest.y; ++y)
+            for (int x = lowest.x; x <= highest.x; ++x)
+                if (kernels::isNearBox(volume, {x, y, z}, box, reach))
+                    m_near[std::size_t(kernels::probeSlot(volume, {x, y, z}))] = 1;
 }
 
 void ProbeStates::placed(std::span<const std::uint32_t> placements, std::span<const std::uint8_t> surfaces) {

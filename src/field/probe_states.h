@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "kernels/volume/volume.h"
+#include "kernels/lookup/used_probes.h"
 #include "probegi/control.h"
 #include "probegi/scene.h"
 #include "probegi/snapshot.h"
@@ -58,6 +58,7 @@ public:
 private:
     void happen(std::size_t slot, std::uint32_t event);
     void renew(std::size_t slot);
+    void markNear(const kernels::Volume& volume, const kernels::Box& box, glm::vec3 reach);
 
     bool m_relocation, m_states;
     std::vector<std::uint32_t> m_placements;

@@ -234,10 +234,12 @@ TEST(Render, StatsHaveExactlyTheirKeys) {
         for (const auto& [name, value] : object.items()) names.push_back(name);
         return names;
     };
-    EXPECT_THAT(keys(stats), testing::UnorderedElementsAre("probes", "raysPerProbe", "frames", "converged", "remaining",
-                                                           "updateMs", "pictureMs", "peakMemoryBytes"));
+    EXPECT_THAT(keys(stats),
+                testing::UnorderedElementsAre("probes", "activeProbes", "raysPerProbe", "frames", "converged",
+                                              "remaining", "updateMs", "pictureMs", "peakMemoryBytes"));
     EXPECT_THAT(keys(stats["updateMs"]), testing::UnorderedElementsAre("trace", "shade", "blend", "total"));
     EXPECT_EQ(stats["probes"], 120);
+    EXPECT_EQ(stats["activeProbes"], 120);
     EXPECT_EQ(stats["raysPerProbe"], 24);
     EXPECT_EQ(stats["frames"], 3);
     EXPECT_TRUE(stats["converged"].is_null()) << "real-time updates do not say";
@@ -245,6 +247,26 @@ TEST(Render, StatsHaveExactlyTheirKeys) {
     EXPECT_GT(stats["pictureMs"], 0);
     EXPECT_GT(stats["peakMemoryBytes"], 1 << 20);
     EXPECT_EQ(folder.entries(), 2u);
+}
+
+TEST(Render, ProbeStatesLeaveProbesOutThatNoSurfaceUses) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> common{"render",   "builtin:two-rooms", "--size", "32x18", "--frames",     "2",
+                                          "--probes", "14x9x10",           "--rays", "16",    "--relocation", "on"};
+    const auto render = [&](const char* name, const char* states) {
+        std::vector<std::string> arguments = common;
+        for (const std::string& more :
+             {std::string("-o"), folder.file(std::string(name) + ".png"), std::string("--stats"), folder.file("s.json"),
+              std::string("--probe-states"), std::string(states)})
+            arguments.push_back(more);
+        const ToolRun run = runTool(arguments);
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        return nlohmann::json::parse(readText(folder.file("s.json")));
+    };
+    const auto all = render("all", "off"), some = render("some", "on");
+    EXPECT_EQ(all["activeProbes"], all["probes"]);
+    EXPECT_LT(some["activeProbes"], some["probes"]);
+    EXPECT_GT(some["activeProbes"], 0);
 }
 
 TEST(Render, SceneWithoutLightNamesTheOptionsThatAddOne) {

@@ -63,7 +63,7 @@ private:
     Context m_all, m_one;
     RawEmbree m_raw, m_robust;
     std::unique_ptr<Tracer> m_tracer;
-    std::optional<Field> m_field, m_fieldAlone;
+    std::optional<Field> m_field, m_fieldAlone, m_fieldOfActive;
     std::vector<Ray> m_primary;
     std::vector<FieldQuery> m_points;
     std::vector<glm::vec3> m_irradiance;
@@ -85,8 +85,12 @@ Result<std::unique_ptr<Bench>> Bench::create(const LoadedSetup& setup, const Ben
     desc.volumes = {setup.grid};
     desc.raysPerProbe = plan.raysPerProbe;
     auto field = Field::create(*all, desc), alone = Field::create(*one, desc);
+    desc.probeStates = true;
+    auto active = Field::create(*all, desc);
     if (!field) return field.error();
     if (!alone) return alone.error();
+    if (!active) return active.error();
+    bench->m_fieldOfActive.emplace(std::move(*active));
     bench->m_field.emplace(std::move(*field));
     bench->m_fieldAlone.emplace(std::move(*alone));
     bench->m_primary = primaryRays(setup.camera, plan.width, plan.height);
@@ -98,8 +102,9 @@ Result<std::unique_ptr<Bench>> Bench::create(const LoadedSetup& setup, const Ben
 }
 
 Result<void> Bench::warmUp() {
-    const auto done = m_field->converge(*m_tracer, m_setup.lighting, 1e-6f, kWarmUpUpdates);
-    if (!done) return done.error();
+    for (Field* field : {&*m_field, &*m_fieldOfActive})
+        if (const auto done = field->converge(*m_tracer, m_setup.lighting, 1e-6f, kWarmUpUpdates); !done)
+            return done.error();
     return round().transform([](const BenchRound&) {});
 }
 
@@ -113,6 +118,9 @@ Result<BenchRound> Bench::round() {
     const auto times = m_field->update(*m_tracer, m_setup.lighting);
     if (!times) return times.error();
     round.update = *times;
+    const auto ofActive = m_fieldOfActive->update(*m_tracer, m_setup.lighting);
+    if (!ofActive) return ofActive.error();
+    round.updateOfActive = ofActive->total;
 
     const std::uint64_t fallbacks = m_field->fallbackQueries();
     auto start = Clock::now();
@@ -139,6 +147,7 @@ BenchResult Bench::facts() const {
     result.threads = m_all.threads();
     result.probes = probeCount(m_setup.grid);
     result.raysPerProbe = m_plan.raysPerProbe;
+    result.activeProbes = int(m_fieldOfActive->control().tasks().size());
     result.fixedRays = int(m_field->control().fixedRayDirections().size());
     result.triangles = triangleCount(*m_setup.scene, m_setup.pose);
     result.points = m_points.size();

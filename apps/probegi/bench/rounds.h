@@ -28,6 +28,7 @@ struct BenchRound {
     double robustFloor = 0;   ///< the same with the flag that ProbeGI's tracer sets
     UpdateTimes update;       ///< all threads
     double updateAlone = 0;   ///< whole update on one thread
+    double updateOfActive = 0;  ///< whole update of a field with probe states (section 6)
     double query = 0;         ///< the field at every point of the picture
     double fallbacks = 0;     ///< of them, looked up beyond their eight probes (Field::fallbackQueries)
     double primaryFloor = 0;  ///< raw Embree, the rays of the picture
@@ -43,6 +44,7 @@ struct BenchGrowth {
 struct BenchResult {
     int threads = 0;  ///< as requested
     int probes = 0, raysPerProbe = 0;
+    int activeProbes = 0;                   ///< of the field with probe states
     int fixedRays = 0;                      ///< per probe, in addition: the temporal filter's
     std::size_t triangles = 0, points = 0;  ///< of the scene; hit by the picture's rays
     std::size_t pixels = 0;

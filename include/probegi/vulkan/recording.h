@@ -139,6 +139,18 @@ public:
     Result<void> recordUpdate(VkCommandBuffer commands, const BufferRange& rayData, const BufferRange& fixedRays,
                               Profiler* profiler = nullptr);
 
+    /// With FieldDesc::relocation or probeStates, for callers that trace the rays: steps the probes' states and lists
+    /// the coming update's tasks in taskBuffer(). recordUpdate() without a scene needs it before each update; that with
+    /// a scene does it by itself. Begins and ends with a full barrier, and the list may be read by indirect dispatches
+    /// and compute shaders. What FieldControl says of tasks, activities and positions is the lattice's then: the CPU
+    /// does not see what the GPU decides. At most 256 bounds (FieldControl::setMoving, setMedia) count. Errors:
+    /// invalidArgument (the field has neither, or too many bounds), outOfMemory.
+    Result<void> recordTasks(VkCommandBuffer commands);
+    /// 16 words, of which the first is the number of tasks, words 1 to 3 the groups of 64 threads for a thread a task,
+    /// 4 to 6 those for a thread a ray (raysPerProbe and fixed rays of each task); then ProbeTask (20 bytes) [task].
+    /// For indirect dispatches, copies, and as a storage buffer by its address. Valid for the life of the field.
+    VkBuffer taskBuffer() const noexcept;
+
     /// Irradiance at `count` points, at most 2^30. `queries`: address of FieldQuery[count] (36 bytes each);
     /// `irradiance`: address of vec3[count] (12 bytes each), W m^-2; multiples of 4. The caller synchronises these
     /// buffers with the compute shader stage, before and after. Errors: outOfMemory (the first call compiles the pass).

@@ -116,8 +116,9 @@ struct BlendPush {
 
 // What probes have that entered a volume (enter_volume.comp).
 struct EnterPush {
-    uvec2 sides;    // ProbeSides[slot]
-    uvec2 filters;  // PackedProbeFilter[slot]
+    uvec2 sides;     // ProbeSides[slot]
+    uvec2 filters;   // PackedProbeFilter[slot]
+    uvec2 surfaces;  // as PlacesPush
     int volume;
     ivec3 cells;  // by which it was scrolled
 };
@@ -133,6 +134,31 @@ struct PlacementsPush {
     uvec2 filters;     // PackedProbeFilter[slot]
     uint count;        // of slots
 };
+
+// Relocation and states of recorded updates, which the CPU does not see (place_probes.comp, look_around.comp,
+// step_states.comp, list_tasks.comp).
+struct GpuBounds {
+    vec3 lower;
+    vec3 upper;
+};
+struct PlacesPush {
+    uvec2 surfaces;  // uint[slot]: a static surface uses the probe
+    uvec2 boxes;     // GpuBounds[moving + media]
+    uvec2 sides;     // ProbeSides[slot]
+    uvec2 filters;   // PackedProbeFilter[slot]
+    uvec2 tasks;     // GpuTaskCounts, ProbeTask[]
+    uvec2 chosen;    // uint[listed]: slots; 0: all of them
+    uvec2 rayData;   // RayDatum[task][ray] of the caller's rays
+    uvec2 directions;
+    uint slots;
+    uint listed;  // chosen ones, or all
+    uint moving;
+    uint media;
+    int rays;   // of the caller, a task
+    int flags;  // kPlacesRelocate, kPlacesSleep
+};
+KERNEL_CONST int kPlacesRelocate = 1;
+KERNEL_CONST int kPlacesSleep = 2;
 
 // Paths into the open (find_solid_probes.comp).
 struct SolidPush {
@@ -222,7 +248,8 @@ KERNELS_END
 namespace probegi::kernels {
 static_assert(offsetof(SceneConstants, tracer) == 140 && sizeof(SceneConstants) == 204 && sizeof(LightingBlock) == 40);
 static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(BlendPush) == 112 &&
-              sizeof(EnterPush) == 32 && sizeof(PlacementsPush) == 28 && sizeof(TracePush) == 76);
+              sizeof(EnterPush) == 40 && sizeof(PlacementsPush) == 28 && sizeof(PlacesPush) == 88 &&
+              sizeof(TracePush) == 76);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 104);
 static_assert(sizeof(TasksPush) == 24 && sizeof(FilterPush) == 76 && sizeof(GpuProbeStep) == 80);
 static_assert(sizeof(ToneMapPush) == 36 && sizeof(GpuSurface) == 76);

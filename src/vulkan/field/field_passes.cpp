@@ -65,7 +65,7 @@ FieldPasses::FieldPasses(const Device& device, const FieldDesc& desc)
                vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst |
                    vk::BufferUsageFlagBits::eTransferSrc),
       m_tasks(device.impl(), "tasks", sizeof(kernels::GpuTaskCounts) + m_layout.probes * sizeof(ProbeTask),
-              kAddressed | vk::BufferUsageFlagBits::eIndirectBuffer),
+              kAddressed | vk::BufferUsageFlagBits::eIndirectBuffer | vk::BufferUsageFlagBits::eTransferSrc),
       m_sides(device.impl(), "probe sides", m_layout.probes * sizeof(kernels::ProbeSides),
               kAddressed | vk::BufferUsageFlagBits::eTransferSrc),
       m_filters(device.impl(), "temporal filters", m_layout.probes * sizeof(kernels::PackedProbeFilter),
@@ -84,6 +84,11 @@ FieldPasses::FieldPasses(const Device& device, const FieldDesc& desc)
                        m_layout.visibilityTexels * sizeof(kernels::GpuTexelRays), kAddressed),
       m_visibilityWeights(device.impl(), "visibility weights",
                           m_layout.rays * m_layout.visibilityTexels * sizeof(kernels::GpuRayWeight), kAddressed) {
+    if (watched()) {
+        m_surfaces = Buffer(device.impl(), "probes at surfaces", m_layout.probes * sizeof(std::uint32_t), kAddressed);
+        m_bounds = Buffer(device.impl(), "bounds of what moves", kMostBounds * sizeof(kernels::GpuBounds), kAddressed);
+        m_chosen = Buffer(device.impl(), "chosen probes", m_layout.probes * sizeof(std::uint32_t), kAddressed);
+    }
     const PoolShape shape = poolShape(device, desc);
     m_tiles = shape.tiles;
     m_irradiance = makeAtlas(device, "irradiance", kIrradianceFormat, shape, desc.irradianceTexels);
@@ -147,7 +152,7 @@ void FieldPasses::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBin
 FieldMemory FieldPasses::memory() const noexcept {
     return {m_irradiance.bytes(), m_visibility.bytes(),
             m_states.bytes() + m_tasks.bytes() + m_sides.bytes() + m_filters.bytes() + m_constants.bytes() +
-                m_directions.bytes(),
+                m_directions.bytes() + m_surfaces.bytes() + m_bounds.bytes() + m_chosen.bytes(),
             m_irradianceWeights.bytes() + m_visibilityRays.bytes() + m_visibilityWeights.bytes() + m_hits.bytes() +
                 m_rayData.bytes() + m_fixedRays.bytes() + m_emitterLights.bytes() + m_steps.bytes() +
                 m_changes.bytes()};
@@ -186,6 +191,9 @@ void FieldPasses::recordClear(const Recorder& recorder, const FieldSettings& set
     recorder.fill(m_states, 0);
     recorder.fill(m_filters, 0);
     recorder.fill(m_sides, 0);
+    if (watched()) recorder.fill(m_surfaces, 0);
+    m_hasNew = true;
+    m_listed = false;
     m_recordedSettings = settings;
     m_recordedTasks.reset();
     recorder.write(m_constants, bytesOf(constants(settings)));
@@ -198,9 +206,81 @@ void FieldPasses::recordEnter(const Recorder& recorder, const FieldSettings& set
     recorder.bindVolume(set());
     recorder.push(kernels::EnterPush{.sides = packAddress(m_sides.address()),
                                      .filters = packAddress(m_filters.address()),
+                                     .surfaces = watched() ? packAddress(m_surfaces.address()) : kernels::uvec2(0),
                                      .volume = volume,
                                      .cells = cells});
     recorder.dispatchOver("enter_volume", std::size_t(kernels::volumeProbes(m_volumes[std::size_t(volume)])));
+    recorder.orderAll();
+    m_hasNew = true;
+}
+
+kernels::PlacesPush FieldPasses::placesPush(const UpdateFrame& frame, const PlacesFrame& places) const {
+    const bool all = places.chosen.empty();
+    return {.surfaces = packAddress(m_surfaces.address()),
+            .boxes = packAddress(m_bounds.address()),
+            .sides = packAddress(m_sides.address()),
+            .filters = packAddress(m_filters.address()),
+            .tasks = packAddress(m_tasks.address()),
+            .chosen = all ? kernels::uvec2(0) : packAddress(m_chosen.address()),
+            .rayData = kernels::uvec2(0),
+            .directions = packAddress(m_directions.address()),
+            .slots = std::uint32_t(m_layout.probes),
+            .listed = std::uint32_t(all ? m_layout.probes : places.chosen.size()),
+            .moving = std::uint32_t(places.moving.size()),
+            .media = std::uint32_t(places.media.size()),
+            .rays = int(frame.directions.size()),
+            .flags = (frame.desc.relocation ? kernels::kPlacesRelocate : 0) |
+                     (frame.desc.probeStates ? kernels::kPlacesSleep : 0)};
+}
+
+void FieldPasses::recordPlaces(const Recorder& recorder, const UpdateFrame& frame, const PlacesFrame& places,
+                               const GpuScene* scene, Profiler* profiler) {
+    PipelineStore& pipelines = *m_device.impl().pipelines;
+    for (const char* shader : {"step_states", "list_tasks", "count_tasks"}) pipelines.get(shader);
+    if (scene) pipelines.get(scene->impl().shader("place_probes"));
+    recordSettings(recorder, frame.settings);
+    recorder.orderAll();
+    std::vector<kernels::GpuBounds> bounds;
+    for (const auto& list : {places.moving, places.media})
+        for (const Bounds& b : list) bounds.push_back({b.lower, b.upper});
+    recorder.write(m_bounds, std::as_bytes(std::span(bounds)));
+    if (!places.chosen.empty() && m_recordedChoice != places.chosenList)
+        recorder.write(m_chosen, std::as_bytes(places.chosen));
+    m_recordedChoice = places.chosenList;
+    recorder.write(m_tasks, bytesOf(std::uint32_t(0)));
+    recorder.transferToCompute();
+    const PassScope scope(recorder, m_device.impl(), profiler, "states");
+    recorder.bindVolume(set());
+    if (scene) recorder.bindScene(scene->impl().set());
+    recorder.push(placesPush(frame, places));
+    if (scene && m_hasNew) {
+        recorder.dispatchOver(scene->impl().shader("place_probes"), std::uint32_t(m_layout.probes), 1);
+        recorder.computeToCompute();
+        m_hasNew = false;
+    }
+    recorder.dispatchOver("step_states", m_layout.probes);
+    recorder.computeToCompute();
+    recorder.dispatchOver("list_tasks", placesPush(frame, places).listed);
+    recorder.computeToCompute();
+    m_listed = true;
+}
+
+void FieldPasses::recordCounts(const Recorder& recorder, const UpdateFrame& frame) {
+    recorder.push(kernels::TasksPush{.tasks = packAddress(m_tasks.address()),
+                                     .count = 0,
+                                     .rays = std::uint32_t(frame.directions.size() + frame.fixedDirections.size()),
+                                     .looks = 0,
+                                     .irradianceTexels = std::uint32_t(m_layout.irradianceTexels)});
+    recorder.dispatch("count_tasks", 1);
+    recorder.orderAll();
+}
+
+void FieldPasses::recordLook(const Recorder& recorder, const UpdateFrame& frame, const PlacesFrame& places,
+                             VkDeviceAddress rayData) {
+    kernels::PlacesPush push = placesPush(frame, places);
+    push.rayData = packAddress(rayData);
+    recorder.push(push);
+    recorder.dispatchIndirect("look_around", m_tasks, offsetof(kernels::GpuTaskCounts, perTask));
     recorder.orderAll();
 }
 
@@ -234,7 +314,10 @@ void FieldPasses::recordTasks(const Recorder& recorder, const UpdateFrame& frame
                                      .rays = std::uint32_t(rays),
                                      .looks = std::uint32_t(looks),
                                      .irradianceTexels = std::uint32_t(m_layout.irradianceTexels)});
-    if (m_recordedTasks != frame.taskList) {
+    if (m_listed) {
+        m_listed = false;
+        m_recordedTasks.reset();
+    } else if (m_recordedTasks != frame.taskList) {
         m_recordedTasks = frame.taskList;
         if (frame.whole()) {
             recorder.dispatchOver("all_tasks", frame.tasks.size());
@@ -247,7 +330,8 @@ void FieldPasses::recordTasks(const Recorder& recorder, const UpdateFrame& frame
         }
     }
     recorder.dispatch("count_tasks", 1);
-    if (frame.windows && !frame.whole()) recorder.fill(m_steps, 0);  // probes that are not updated report no lag
+    if (frame.windows && (watched() || !frame.whole()))
+        recorder.fill(m_steps, 0);  // probes that are not updated report no lag
     recorder.transferToCompute();
     recorder.computeToDispatch();
 }

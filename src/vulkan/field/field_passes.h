@@ -19,6 +19,14 @@ struct RayAddresses {
     int looks = 0;                      ///< emitter samples per task; 0: none
 };
 
+/// What relocation and states of recorded updates need to know besides the frame.
+struct PlacesFrame {
+    std::span<const Bounds> moving{}, media{};  ///< at most kMostBounds together
+    std::span<const std::uint32_t> chosen{};    ///< slots; empty: all
+    std::uint32_t chosenList = 0;               ///< differs between lists
+};
+inline constexpr std::size_t kMostBounds = 256;
+
 /// A field's probes in GPU memory and the passes over them. The UpdateFrame of an update comes from the FieldControl of
 /// a GpuField or a Field. Throws Failure and Vulkan-Hpp's exceptions.
 class FieldPasses {
@@ -37,6 +45,15 @@ public:
     void recordEnter(const Recorder& recorder, const FieldSettings& settings, int volume, glm::ivec3 cells);
     /// FieldBackend::setPlacements(), from GpuPlacement[slot].
     void recordPlacements(const Recorder& recorder, const FieldSettings& settings, VkDeviceAddress placements);
+    /// Of recorded updates with relocation or states, before recordUpdate(): steps the probes' states and lists the
+    /// tasks, in GPU memory. With a scene, new probes are placed first; without, recordLook() places them.
+    void recordPlaces(const Recorder& recorder, const UpdateFrame& frame, const PlacesFrame& places,
+                      const GpuScene* scene, Profiler* profiler);
+    /// After recordPlaces(): the sizes of dispatches over the tasks, for callers that trace.
+    void recordCounts(const Recorder& recorder, const UpdateFrame& frame);
+    /// After recordUpdate() with the caller's rays: they place new probes.
+    void recordLook(const Recorder& recorder, const UpdateFrame& frame, const PlacesFrame& places,
+                    VkDeviceAddress rayData);
     /// Clears all probes. From here on, `settings` are what shaders that read the field see.
     void recordClear(const Recorder& recorder, const FieldSettings& settings);
     /// Traces and shades the rays of the tasks, then blends the ray data.
@@ -52,6 +69,8 @@ public:
     void forgetRecorded() noexcept {
         m_recordedSettings.reset();
         m_recordedTasks.reset();
+        m_recordedChoice.reset();
+        m_hasNew = true;
     }
 
     vk::DescriptorSet set() const noexcept { return *m_sets.front(); }
@@ -67,6 +86,8 @@ public:
     const Buffer& states() const noexcept { return m_states; }
     const Buffer& sides() const noexcept { return m_sides; }
     const Buffer& filters() const noexcept { return m_filters; }
+    const Buffer& tasks() const noexcept { return m_tasks; }
+    bool watched() const noexcept { return m_desc.relocation || m_desc.probeStates; }
     const Device& device() const noexcept { return m_device; }
 
 private:
@@ -75,6 +96,7 @@ private:
     void makeRayBuffers(int looks);
     void beginUpdate(const Recorder& recorder, const UpdateFrame& frame, int looks, Profiler* profiler);
     void recordTasks(const Recorder& recorder, const UpdateFrame& frame, int looks);
+    kernels::PlacesPush placesPush(const UpdateFrame& frame, const PlacesFrame& places) const;
     void recordWeights(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler);
     void recordTrace(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
                      const GpuLighting& lighting, const RayAddresses& data, Profiler* profiler);
@@ -99,6 +121,7 @@ private:
     Buffer m_sides;                         // ProbeSides per probe
     Buffer m_filters;                       // PackedProbeFilter per probe
     Buffer m_steps, m_changes;              // passed between the passes of an update
+    Buffer m_surfaces, m_bounds, m_chosen;  // of recorded updates with relocation or states: kernels::PlacesPush
     Buffer m_directions;                    // vec3 per ray: those of the update, then the fixed ones
     Buffer m_irradianceWeights;             // float[ray][texel]
     Buffer m_visibilityRays;                // GpuTexelRays[texel]
@@ -109,7 +132,10 @@ private:
     vk::raii::DescriptorSets m_sets{nullptr};
     // Contents of the buffers once all recorded commands have run.
     std::optional<FieldSettings> m_recordedSettings;
-    std::optional<std::uint32_t> m_recordedTasks;  // UpdateFrame::taskList
+    std::optional<std::uint32_t> m_recordedTasks;   // UpdateFrame::taskList
+    std::optional<std::uint32_t> m_recordedChoice;  // PlacesFrame::chosenList
+    bool m_listed = false;                          // the tasks of the coming update are in m_tasks
+    bool m_hasNew = true;                           // some probes may await their placement
 };
 
 }  // namespace probegi::vulkan

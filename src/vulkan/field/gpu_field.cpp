@@ -28,10 +28,6 @@ GpuField::~GpuField() = default;
 Result<GpuField> GpuField::create(const Device& device, const FieldDesc& desc, const FieldSettings& settings) {
     if (auto ok = validateFieldDesc(desc); !ok) return ok.error();
     if (auto ok = validateFieldSettings(settings); !ok) return ok.error();
-    if (desc.relocation || desc.probeStates)
-        return fail(ErrorCode::unsupported,
-                    "recorded updates neither relocate probes nor put them to sleep yet; make the field without "
-                    "relocation and probeStates");
     return guarded("making a field", [&] { return GpuField(std::make_unique<Impl>(device, desc, settings)); });
 }
 
@@ -55,6 +51,7 @@ Result<void> GpuField::recordClear(VkCommandBuffer commands) {
     return m_impl->recorded("recording the clearing of probes", [&] {
         m_impl->passes.recordClear({m_impl->passes.device().impl(), commands}, m_impl->control.settings());
         m_impl->books().restart();
+        m_impl->tasksRecorded = false;
     });
 }
 
@@ -64,6 +61,7 @@ Result<void> GpuField::recordScroll(VkCommandBuffer commands, int volume, glm::i
         auto placement = orThrow(m_impl->books().scrolledBy(volume, cells));
         m_impl->books().swapPlacement(placement);
         m_impl->passes.place(m_impl->books().volumes);
+        m_impl->tasksRecorded = false;
         m_impl->passes.recordEnter({m_impl->passes.device().impl(), commands}, m_impl->control.settings(), volume,
                                    cells);
     });
@@ -72,10 +70,30 @@ Result<void> GpuField::recordScroll(VkCommandBuffer commands, int volume, glm::i
 Result<void> GpuField::recordUpdate(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,
                                     Profiler* profiler) {
     return m_impl->recorded("recording an update", [&] {
-        m_impl->passes.recordUpdate({m_impl->passes.device().impl(), commands}, m_impl->books().comingUpdate(), scene,
-                                    lighting, profiler);
+        const Recorder recorder{m_impl->passes.device().impl(), commands};
+        const UpdateFrame frame = m_impl->books().comingUpdate();
+        if (m_impl->passes.watched()) m_impl->passes.recordPlaces(recorder, frame, m_impl->places(), &scene, profiler);
+        m_impl->tasksRecorded = false;
+        m_impl->passes.recordUpdate(recorder, frame, scene, lighting, profiler);
         m_impl->books().advance();
     });
+}
+
+Result<void> GpuField::recordTasks(VkCommandBuffer commands) {
+    if (!m_impl->passes.watched())
+        return fail(ErrorCode::invalidArgument,
+                    "a field without relocation and probeStates has its tasks in control()");
+    return m_impl->recorded("recording the listing of tasks", [&] {
+        const Recorder recorder{m_impl->passes.device().impl(), commands};
+        const UpdateFrame frame = m_impl->books().comingUpdate();
+        m_impl->passes.recordPlaces(recorder, frame, m_impl->places(), nullptr, nullptr);
+        m_impl->passes.recordCounts(recorder, frame);
+        m_impl->tasksRecorded = true;
+    });
+}
+
+VkBuffer GpuField::taskBuffer() const noexcept {
+    return m_impl->passes.tasks().handle();
 }
 
 Result<void> GpuField::recordUpdate(VkCommandBuffer commands, const BufferRange& rayData, Profiler* profiler) {
@@ -88,10 +106,19 @@ Result<void> GpuField::recordUpdate(VkCommandBuffer commands, const BufferRange&
     if (auto ok = checkRange(rayData, "rayData", books.rayCount(), sizeof(RayDatum)); !ok) return ok;
     if (!fixedRays.empty())
         if (auto ok = checkRange(fixedRays, "fixedRays", books.fixedRayCount(), sizeof(FixedRayDatum)); !ok) return ok;
+    const bool watched = m_impl->passes.watched();
+    if (watched && !m_impl->tasksRecorded)
+        return fail(ErrorCode::invalidArgument,
+                    "with relocation or probeStates the GPU lists the tasks: call recordTasks() first, and trace the "
+                    "rays of the tasks in taskBuffer()");
     return m_impl->recorded("recording an update", [&] {
         const UpdateFrame frame = fixedRays.empty() ? books.comingUpdateWithoutFixedRays() : books.comingUpdate();
         m_impl->passes.recordUpdate({m_impl->passes.device().impl(), commands}, frame,
                                     RayAddresses{rayData.address, fixedRays.address}, profiler);
+        if (watched)
+            m_impl->passes.recordLook({m_impl->passes.device().impl(), commands}, frame, m_impl->places(),
+                                      rayData.address);
+        m_impl->tasksRecorded = false;
         books.advance();
     });
 }

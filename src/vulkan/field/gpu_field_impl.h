@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/sentence.h"
 #include "field/control_impl.h"
 #include "vulkan/device/errors.h"
 #include "vulkan/field/field_passes.h"
@@ -20,7 +21,16 @@ struct GpuField::Impl {
         return done;
     }
 
+    PlacesFrame places() {
+        const FieldControl::Impl& b = books();
+        if (b.states.moving().size() + b.states.media().size() > kMostBounds)
+            throw Failure(ErrorCode::invalidArgument, sentence("recorded updates take at most ", kMostBounds,
+                                                               " bounds of moving things and media; join some"));
+        return {b.states.moving(), b.states.media(), b.chosen, b.taskLists};
+    }
+
     FieldPasses passes;
+    bool tasksRecorded = false;  // since the last update
     FieldControl control;
 };
 

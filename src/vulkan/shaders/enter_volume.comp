@@ -10,5 +10,8 @@ void main() {
     const uint index = globalIndex();
     if (index >= uint(volumeProbes(volume))) return;
     const int slot = volume.firstSlot + int(index);
-    if (hasEntered(volume, probeCell(volume, slot), push.cells)) renewProbe(slot, push.sides, push.filters);
+    if (!hasEntered(volume, probeCell(volume, slot), push.cells)) return;
+    renewProbe(slot, push.sides, push.filters);
+    probegiStates.at[slot].placement = 0u;
+    if (push.surfaces != uvec2(0u)) Uints(push.surfaces).at[slot] = 0u;
 }
