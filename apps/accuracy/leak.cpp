@@ -60,10 +60,13 @@ Result<LeakResult> measureLeak(const Context& context, float wallThickness) {
     LeakResult result;
     result.wallThickness = wallThickness;
     for (const float shift : kShifts)
-        for (const auto& [guard, run, share] : {std::tuple(LeakGuard::none, Run::converge, &result.leaky),
-                                                std::tuple(LeakGuard::moments, Run::converge, &result.moments),
-                                                std::tuple(LeakGuard::moments, Run::update, &result.realtime)}) {
+        for (const auto& [guard, relocation, run, share] :
+             {std::tuple(LeakGuard::none, false, Run::converge, &result.leaky),
+              std::tuple(LeakGuard::moments, false, Run::converge, &result.moments),
+              std::tuple(LeakGuard::moments, true, Run::converge, &result.relocated),
+              std::tuple(LeakGuard::moments, false, Run::update, &result.realtime)}) {
             FieldDesc desc;
+            desc.relocation = relocation;
             desc.volumes = {shiftedGrid(shift)};
             FieldSettings settings;
             settings.guard = guard;

@@ -20,6 +20,7 @@ struct LeakResult {
     float wallThickness = 0;  ///< metres
     LeakShare leaky;          ///< LeakGuard::none, converged
     LeakShare moments;        ///< LeakGuard::moments, converged
+    LeakShare relocated;      ///< the same with relocated probes
     LeakShare realtime;       ///< LeakGuard::moments after kRealtimeUpdates of Field::update
 };
 

@@ -87,13 +87,16 @@ std::string basisTable(const std::vector<MeasuredScene>& scenes) {
 std::string leakTable(const std::vector<LeakResult>& leaks) {
     std::string text =
         "### Light in the sealed room of `builtin:dark-room`, over that in the sunlit room\n\n"
-        "| wall | leaking, mean | leaking, worst | moments, mean | moments, worst | moments, `update`, mean | "
-        "moments, `update`, worst |\n|---:|---:|---:|---:|---:|---:|---:|\n";
+        "| wall | leaking, mean | leaking, worst | moments, mean | moments, worst | relocated, mean | "
+        "relocated, worst | moments, `update`, mean | moments, `update`, worst |\n"
+        "|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
     for (const LeakResult& leak : leaks)
-        text += fmt::format("| {:.0f} cm | {:.2f} % | {:.2f} % | {:.3f} % | {:.3f} % | {:.3f} % | {:.3f} % |\n",
-                            100 * leak.wallThickness, 100 * leak.leaky.mean, 100 * leak.leaky.worst,
-                            100 * leak.moments.mean, 100 * leak.moments.worst, 100 * leak.realtime.mean,
-                            100 * leak.realtime.worst);
+        text += fmt::format(
+            "| {:.0f} cm | {:.2f} % | {:.2f} % | {:.3f} % | {:.3f} % | {:.3f} % | {:.3f} % | {:.3f} % | "
+            "{:.3f} % |\n",
+            100 * leak.wallThickness, 100 * leak.leaky.mean, 100 * leak.leaky.worst, 100 * leak.moments.mean,
+            100 * leak.moments.worst, 100 * leak.relocated.mean, 100 * leak.relocated.worst, 100 * leak.realtime.mean,
+            100 * leak.realtime.worst);
     return text;
 }
 
