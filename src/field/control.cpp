@@ -46,6 +46,7 @@ FieldControl::Impl::Impl(const FieldDesc& d, const FieldSettings& s)
       settings(s),
       scrolled(d.volumes.size()),
       volumes(makeVolumes(d)),
+      byDensity(volumesByDensity(d)),
       tasks(allTasks(volumes)),
       directions(std::size_t(d.raysPerProbe)) {
     turnRays();
@@ -63,7 +64,7 @@ void FieldControl::Impl::turnRays() noexcept {
 
 std::size_t FieldControl::Impl::bytes() const noexcept {
     return sizeof(*this) + (directions.capacity() + fixedDirections.capacity()) * sizeof(directions[0]) +
-           tasks.capacity() * sizeof(tasks[0]);
+           tasks.capacity() * sizeof(tasks[0]) + byDensity.capacity() * sizeof(byDensity[0]);
 }
 
 UpdateFrame FieldControl::Impl::comingUpdate() const noexcept {
@@ -165,6 +166,17 @@ Result<FieldControl::Impl::Placement> FieldControl::Impl::placementOf(const Fiel
     return placedAt(whole ? snapshot.scrolled : scrolled);
 }
 
+Result<std::vector<glm::ivec3>> FieldControl::Impl::cellsAfter(glm::vec3 camera) const {
+    FieldSettings there = settings;
+    there.camera = camera;
+    if (auto ok = validateFieldSettings(there); !ok) return ok.error();
+    std::vector<glm::ivec3> cells(desc.volumes.size());
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        if (desc.volumes[i].tracksCamera)
+            cells[i] = cellsToFollow(scrolledVolume(desc.volumes[i], scrolled[i]), camera);
+    return cells;
+}
+
 void FieldControl::Impl::swapPlacement(Placement& other) noexcept {
     scrolled.swap(other.scrolled);
     volumes.swap(other.volumes);
@@ -198,6 +210,22 @@ int FieldControl::frame() const noexcept {
 }
 VolumeDesc FieldControl::place(int volume) const noexcept {
     return scrolledVolume(m_impl->desc.volumes[std::size_t(volume)], m_impl->scrolled[std::size_t(volume)]);
+}
+float FieldControl::coverage(glm::vec3 point) const noexcept {
+    return kernels::coverageAt(m_impl->volumeAccess(), point);
+}
+Result<void> FieldControl::coverage(std::span<const glm::vec3> points, std::span<float> out) const {
+    if (points.size() != out.size())
+        return fail(ErrorCode::invalidArgument, sentence("there are ", points.size(), " points and room for ",
+                                                         out.size(), " answers; both spans must be equally long"));
+    const VolumeAccess access = m_impl->volumeAccess();
+    for (std::size_t i = 0; i < points.size(); ++i) out[i] = kernels::coverageAt(access, points[i]);
+    return {};
+}
+Result<std::vector<float>> FieldControl::volumeShares(glm::vec3 point) const try {
+    return sharesOfVolumes(m_impl->volumeAccess(), point);
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, "no memory for the shares of the volumes");
 }
 void FieldControl::notify(FieldEvent event) noexcept {
     m_impl->events.notify(event);

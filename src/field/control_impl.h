@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "field/update_frame.h"
+#include "field/volume_access.h"
 #include "probegi/control.h"
 #include "probegi/snapshot.h"
 
@@ -48,6 +49,10 @@ struct FieldControl::Impl {
     Result<Placement> scrolledBy(int volume, glm::ivec3 cells) const;
     /// The placement of a snapshot's field. Errors: invalidArgument.
     Result<Placement> placementOf(const FieldSnapshot& snapshot) const;
+    /// The volumes and how they answer together, as they are now.
+    VolumeAccess volumeAccess() const noexcept { return {volumes, volumeOrder(desc, settings, byDensity)}; }
+    /// By how far each volume is to be scrolled after a camera. Errors: invalidArgument (not finite).
+    Result<std::vector<glm::ivec3>> cellsAfter(glm::vec3 camera) const;
     /// Exchanges the placement with another one.
     void swapPlacement(Placement& other) noexcept;
 
@@ -55,6 +60,7 @@ struct FieldControl::Impl {
     FieldSettings settings;
     std::vector<glm::ivec3> scrolled;      // by volume, cells
     std::vector<kernels::Volume> volumes;  // as they stand now
+    std::vector<int> byDensity;            // of the volumes
     std::vector<ProbeTask> tasks;
     std::uint32_t taskList = 0;   // number of the list; 0: all probes
     std::uint32_t taskLists = 0;  // so far

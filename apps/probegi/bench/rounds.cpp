@@ -82,9 +82,9 @@ Result<std::unique_ptr<Bench>> Bench::create(const LoadedSetup& setup, const Ben
     if (!tracer) return tracer.error();
     bench->m_tracer = std::move(*tracer);
     FieldDesc desc;
-    desc.volumes = {setup.grid};
+    desc.volumes = setup.volumes;
     desc.raysPerProbe = plan.raysPerProbe;
-    auto field = Field::create(*all, desc), alone = Field::create(*one, desc);
+    auto field = Field::create(*all, desc, setup.settings), alone = Field::create(*one, desc, setup.settings);
     if (!field) return field.error();
     if (!alone) return alone.error();
     bench->m_field.emplace(std::move(*field));
@@ -137,7 +137,7 @@ Result<BenchRound> Bench::round() {
 BenchResult Bench::facts() const {
     BenchResult result;
     result.threads = m_all.threads();
-    result.probes = probeCount(m_setup.grid);
+    result.probes = probeCount(m_setup);
     result.raysPerProbe = m_plan.raysPerProbe;
     result.fixedRays = int(m_field->control().fixedRayDirections().size());
     result.triangles = triangleCount(*m_setup.scene, m_setup.pose);
