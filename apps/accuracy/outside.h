@@ -11,9 +11,9 @@ namespace probegi::accuracy {
 /// Light outside of a volume over the path tracer's, by what is taken for it.
 struct OutsideResult {
     std::string scene;
-    std::string assumed;                ///< "nearest", "black", "sky"
-    std::array<SurfaceError, 4> error;  ///< by the distance in cells: inside, up to 0.5, up to 1.5, farther
-    std::string missing{};              ///< why the scene could not be measured; empty: it was
+    std::string assumed{};                ///< "nearest", "black", "sky"
+    std::array<SurfaceError, 4> error{};  ///< by the distance in cells: inside, up to 0.5, up to 1.5, farther
+    std::string missing{};                ///< why the scene could not be measured; empty: it was
 };
 
 /// A volume over the inner half of each side of a scene, and surface points of all of it. Errors: those of Field, the

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/points.h"
+#include "probegi/measure.h"
 #include "probegi/tracer.h"
 
 namespace probegi::tool {

@@ -186,9 +186,10 @@ std::vector<std::string> gridWarnings(const LoadedSetup& setup) {
     const Overhang surfaces = overhang(box, setup.pose.bounds.lower, setup.pose.bounds.upper);
     if (surfaces.cells <= kHarmlessCells) return {};  // then a camera sees no surface outside
     std::vector<std::string> sentences{
-        fmt::format("the scene reaches {:.4g} m beyond its probe grid: surfaces there get the light "
-                    "of the nearest probes; cover all of it with --probes",
-                    surfaces.metres)};
+        fmt::format("the scene reaches {:.4g} m beyond its probe grid: surfaces there get the light of {}; cover all "
+                    "of it with {}",
+                    surfaces.metres, setup.settings.outside == OutsideLight::fades ? "--outside" : "the nearest probes",
+                    setup.settings.camera ? "a larger --cascade-spacing, or more --cascades" : "--probes")};
     const Overhang camera = overhang(box, setup.camera.position, setup.camera.position);
     if (camera.cells > kHarmlessCells)
         sentences.push_back(

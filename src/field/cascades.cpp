@@ -19,6 +19,10 @@ Result<void> checkCascades(const CascadeDesc& desc) {
         return fail(ErrorCode::invalidArgument,
                     sentence("factor is ", desc.factor, "; it must be more than 1, and at most ", kLargestFactor));
     for (int axis = 0; axis < 3; ++axis) {
+        if (!(desc.spacing[axis] >= kSmallestSpacing && desc.spacing[axis] <= kLargestSpacing))
+            return fail(ErrorCode::invalidArgument,
+                        sentence("spacing is ", desc.spacing[axis], " on an axis; it must be ", kSmallestSpacing,
+                                 " to ", kLargestSpacing));
         if (!std::isfinite(desc.centre[axis])) return fail(ErrorCode::invalidArgument, "centre is not finite");
         if (desc.counts[axis] < kFewestTracking || desc.counts[axis] > 1024)
             return fail(ErrorCode::invalidArgument, sentence("counts is ", desc.counts[axis],

@@ -89,10 +89,10 @@ TEST(VolumeWeight, theWindowsLeapChangesNothing) {
             EXPECT_NEAR(before, volumeWeight(cellsInTrackingVolume(leapt, point, camera)), 1e-4f);
             weighed += before > 0 && before < 1 ? 1 : 0;
             without +=
-                std::abs(volumeWeight(cellsInVolume(v, point)) - volumeWeight(cellsInVolume(leapt, point))) > 0.9f;
+                std::abs(volumeWeight(cellsInVolume(v, point)) - volumeWeight(cellsInVolume(leapt, point))) > 0.5f;
         }
     EXPECT_GT(weighed, 300);
-    EXPECT_GT(without, 100) << "without the camera they leap from 0 to 1";
+    EXPECT_GT(without, 100) << "without the camera they leap";
 }
 
 VolumeAnswer saying(float irradiance, float weight = 1.0f) {
