@@ -6,8 +6,10 @@
 #include "backend.h"
 #include "console/parse.h"
 #include "console/terminal.h"
+#include "flight.h"
 #include "markdown.h"
 #include "motion.h"
+#include "outside.h"
 #include "placement.h"
 #include "probegi/builtin_scenes.h"
 #include "surfaces.h"
@@ -19,7 +21,7 @@ using namespace probegi::accuracy;
 
 struct Options {
     std::string page;
-    std::string only;   ///< a scene, "leak", "surfaces", "placement" or "motion"; empty: all
+    std::string only;   ///< a scene, or a table's name; empty: all
     std::string scene;  ///< of the placement's; empty: all
     bool leaky = false;
     std::string scenesFolder = "../shared/scenes";
@@ -151,6 +153,57 @@ Result<std::string> motion(const Context& context, const Options& options) {
     return motionTable(rows);
 }
 
+/// Reads a scene; `sky`: instead of its own, if not black.
+Result<LoadedScene> sceneWithSky(const std::string& path, glm::vec3 sky) {
+    tool::SceneOptions options;
+    options.scene = path;
+    auto loaded = tool::readScene(options);
+    if (loaded && sky != glm::vec3(0.0f)) loaded->scene.sky.radiance = sky;
+    return loaded;
+}
+
+constexpr glm::vec3 kSponzaSky(0.6f, 0.8f, 1.2f);
+
+/// Flights through Sponza: small cascades on a plain machine, and the size of the paper's.
+Result<std::string> flights(const Context& context, const Options& options) {
+    std::vector<FlightResult> rows;
+    const auto sponza = sceneWithSky(options.scenesFolder + "/sponza/sponza.glb", kSponzaSky);
+    for (const auto& [counts, levels] : {std::pair(glm::ivec3(16, 10, 16), 3), std::pair(glm::ivec3(24, 12, 24), 4)}) {
+        if (!sponza) {
+            rows.push_back({.scene = "sponza", .missing = sponza.error().message});
+            break;
+        }
+        FlightDesc desc;
+        desc.cascades.counts = counts;
+        desc.cascades.levels = levels;
+        auto measured = measureFlight(context, "sponza", sponza->scene, desc);
+        if (!measured) return measured.error();
+        rows.push_back(std::move(*measured));
+    }
+    return flightTable(rows);
+}
+
+Result<std::string> outside(const Context& context, const Options& options) {
+    std::vector<OutsideResult> rows;
+    const auto add = [&](const char* name, const std::string& path, glm::vec3 sky) -> Result<void> {
+        const auto loaded = sceneWithSky(path, sky);
+        if (!loaded) {
+            rows.push_back({.scene = name, .missing = loaded.error().message});
+            return {};
+        }
+        auto measured = measureOutside(context, name, loaded->scene);
+        if (!measured) return measured.error();
+        rows.insert(rows.end(), measured->begin(), measured->end());
+        return {};
+    };
+    const glm::vec3 own(0.0f);
+    for (const char* name : {"two-rooms", "house", "atrium"})
+        if (auto done = add(name, "builtin:" + std::string(name), own); !done) return done.error();
+    if (auto done = add("sponza", options.scenesFolder + "/sponza/sponza.glb", kSponzaSky); !done) return done.error();
+    if (auto done = add("oa_dm1", options.scenesFolder + "/openarena/oa_dm1.glb", own); !done) return done.error();
+    return outsideTable(rows);
+}
+
 Result<void> measure(const Options& options) {
     const auto context = tool::makeContext(options.threads);
     if (!context) return context.error();
@@ -189,6 +242,16 @@ Result<void> measure(const Options& options) {
         if (!table) return table.error();
         tables += *table;
     }
+    if (wanted("flight")) {
+        const auto table = flights(*context, options);
+        if (!table) return table.error();
+        tables += *table;
+    }
+    if (wanted("outside")) {
+        const auto table = outside(*context, options);
+        if (!table) return table.error();
+        tables += *table;
+    }
     if (!options.page.empty() && options.only.empty()) return replaceBetweenMarkers(options.page, tables);
     fmt::print("{}", tables);
     return {};
@@ -201,8 +264,9 @@ int run(int argc, char** argv) {
     app.add_option("-o,--output", options.page, "page whose measured part is replaced (default: print)")
         ->type_name("FILE");
     app.add_option("--only", options.only,
-                   "print the tables of one scene, the leak, the surfaces, placement or motion, and write nothing")
-        ->type_name("cornell|two-rooms|dark-room|sponza|leak|surfaces|placement|motion");
+                   "print the tables of one scene, the leak, the surfaces, placement, motion, a flight or what is "
+                   "outside of volumes, and write nothing")
+        ->type_name("cornell|two-rooms|dark-room|sponza|leak|surfaces|placement|motion|flight|outside");
     app.add_option("--scene", options.scene, "of placement: this scene only");
     app.add_flag("--leaky", options.leaky, "placement: without a visibility test");
     app.add_option("--scenes", options.scenesFolder, "folder of the real scenes (default: PROBEGI_SCENES)")

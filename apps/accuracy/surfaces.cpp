@@ -34,7 +34,7 @@ Result<std::vector<SurfaceRow>> measureSurface(const Context& context, const std
     for (const bool plain : {false, true}) {
         if (plain && !updatesToo) break;
         FieldDesc desc;
-        desc.volumes = {setup.grid};
+        desc.volumes = setup.volumes;
         auto field = Field::create(context, desc);
         if (!field) return field.error();
         if (!plain) {
@@ -45,7 +45,7 @@ Result<std::vector<SurfaceRow>> measureSurface(const Context& context, const std
             if (const auto done = field->update(**tracer, setup.lighting); !done) return done.error();
         const auto error = compareAtSurfaces(*field, *truth);
         if (!error) return error.error();
-        rows.push_back({name, probeCount(setup.grid), plain ? "300 updates" : "converge", *error});
+        rows.push_back({name, probeCount(setup), plain ? "300 updates" : "converge", *error});
     }
     return rows;
 }

@@ -56,7 +56,8 @@ Json gridOf(const Scene& scene, const ScenePose& pose) {
             {"origin", toJson(grid->origin + scene.origin)},
             {"spacing", toJson(grid->spacing)},
             {"counts", {grid->counts.x, grid->counts.y, grid->counts.z}},
-            {"probes", probeCount(*grid)}};
+            {"probes", probeCount(*grid)},
+            {"furtherGrids", scene.furtherGrids.size()}};
 }
 
 Json animationSpan(const Scene& scene) {
@@ -123,6 +124,8 @@ void printGrid(const Json& grid) {
     fmt::print("probe grid  {} x {} x {} = {} probes from {} every {} m ({})\n", n[0].get<int>(), n[1].get<int>(),
                n[2].get<int>(), grid["probes"].get<int>(), vectorText(grid["origin"]), vectorText(grid["spacing"]),
                grid["source"] == "scene" ? "from the scene" : "placed automatically, by bounds and walls");
+    if (const std::size_t further = grid["furtherGrids"].get<std::size_t>(); further > 0)
+        fmt::print("            and {} more from the scene\n", further);
 }
 
 void printText(const Json& info) {

@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "console/output.h"
 #include "console/parse.h"
+#include "debug_view.h"
 #include "probegi/reference.h"
 #include "render_stats.h"
 #include "scene_setup.h"
@@ -41,6 +42,7 @@ struct RenderOptions {
     std::optional<double> seconds;
     bool guide = false;
     bool relocation = false, probeStates = false;
+    std::string debug;  ///< name of a DebugView; empty: a picture
 };
 
 const char* const kFooter =
@@ -54,6 +56,8 @@ Example: probegi render builtin:cornell -o cornell.png
 Example: probegi render builtin:cornell -o darker.png --exposure 0.8
 Example: probegi render sponza.glb -o sponza.exr --camera nave --sky 0.3,0.4,0.6 --size 1920x1080 --stats stats.json
 Example: probegi render builtin:house -o house.png --backend vulkan
+Example: probegi render sponza.glb -o near.png --camera nave --sky 0.3,0.4,0.6 --cascades 4
+Example: probegi render sponza.glb -o seams.png --camera nave --sky 0.3,0.4,0.6 --cascades 4 --debug volumes
 Example: probegi render builtin:house -o truth.png --method reference --time 30)";
 
 PictureDesc pictureDesc(const RenderOptions& options, const LoadedSetup& setup) {
@@ -65,19 +69,20 @@ Result<std::optional<Field>> makeField(const Backend& backend, const Tracer& tra
                                        const RenderOptions& options, RenderStats& stats) {
     if (options.method == Method::none || (options.method == Method::reference && !options.guide)) return std::nullopt;
     FieldDesc desc;
-    desc.volumes = {setup.grid};
+    desc.volumes = setup.volumes;
     desc.raysPerProbe = options.rays;
     desc.seed = options.seed;
     desc.rules = options.rules;
     desc.relocation = options.relocation;
     desc.probeStates = options.probeStates;
-    FieldSettings settings;
+    FieldSettings settings = setup.settings;
     if (options.rules == FieldRules::paper) settings.visibilityExponent = kPaperVisibilityExponent;
     settings.guard = options.method == Method::leaky ? LeakGuard::none : LeakGuard::moments;
     auto field = backend.makeField(desc, settings);
     if (!field) return field.error();
     stats.probes = probeCount(desc);
     stats.raysPerProbe = desc.raysPerProbe;
+    if (!options.debug.empty() && !findDebugView(options.debug)->needsLight) return std::move(*field);
     auto run = runField(*field, tracer, setup.lighting, options.run);
     if (!run) return run.error();
     stats.run = std::move(*run);
@@ -116,6 +121,17 @@ Result<Picture> renderReference(const Context& context, const Backend& backend, 
     return std::move(rendered->picture);
 }
 
+Result<void> renderDebugView(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
+                             const RenderOptions& options, RenderStats& stats) {
+    const auto field = makeField(backend, tracer, setup, options, stats);
+    if (!field) return field.error();
+    const PictureSize size = *parseSize(options.size);
+    const auto image =
+        drawDebugView(*findDebugView(options.debug), **field, tracer, setup.camera, size.width, size.height);
+    if (!image) return image.error();
+    return writeImage(options.output, *image);
+}
+
 void warnAboutUnusedOptions(const RenderOptions& options) {
     const bool reference = options.method == Method::reference;
     if (!reference && (options.samplesPerPixel || options.seconds || options.guide))
@@ -130,6 +146,8 @@ void warnAboutUnusedOptions(const RenderOptions& options) {
 
 void checkOptions(const CLI::App& command, const RenderOptions& options) {
     checkBackendOptions(command, options.backend);
+    if (!options.debug.empty() && (options.method == Method::none || options.method == Method::reference))
+        throw CLI::ValidationError("--debug", "--method none and reference have no probes to show");
     if (options.method == Method::reference && options.backend.kind == BackendKind::vulkan)
         throw CLI::ValidationError("--backend", "--method reference is path traced on the CPU only");
 }
@@ -151,6 +169,10 @@ Result<void> render(const RenderOptions& options) {
     if (!tracer) return tracer.error();
 
     RenderStats stats;
+    if (!options.debug.empty()) {
+        if (auto drawn = renderDebugView(**backend, **tracer, *setup, options, stats); !drawn) return drawn;
+        return options.stats.empty() ? Result<void>() : writeText(options.stats, statsJson(stats));
+    }
     const auto draw = options.method == Method::reference ? renderReference : renderWithField;
     const auto picture = draw(*context, **backend, **tracer, *setup, options, stats);
     if (!picture) return picture.error();
@@ -179,6 +201,15 @@ void addPictureOptions(CLI::App& command, RenderOptions& options) {
     command.add_option("--aov", options.aov, "write this layer instead of the picture")
         ->type_name("irradiance|normal|albedo|depth|direct|indirect")
         ->transform(oneOf(kAovs));
+    std::vector<std::string> debugNames;
+    std::string debugHelp = "a picture of what the probes do:";
+    for (const DebugView& view : debugViews()) {
+        debugNames.push_back(view.name);
+        debugHelp += fmt::format(" {} ({})", view.name, view.help);
+    }
+    command.add_option("--debug", options.debug, debugHelp)
+        ->type_name(fmt::format("{}", fmt::join(debugNames, "|")))
+        ->check(CLI::IsMember(debugNames));
     command.add_option("--antialias", options.antialias, "primary rays per pixel and axis, 1 to 8 (not for reference)")
         ->type_name("N")
         ->check(inRange(1, 8))

@@ -71,14 +71,16 @@ void addGridOptions(CLI::App& command, SceneOptions& options) {
                        ->type_name("XxYxZ")
                        ->check(parsedBy(parseCounts))
                        ->group(kGroup);
-    command
-        .add_option("--volume", options.volume,
-                    "the grid itself: position of the first probe (X,Y,Z), metres between probes (S or SX,SY,SZ), "
-                    "probes per axis (XxYxZ)")
-        ->type_name("ORIGIN:SPACING:COUNTS")
-        ->check(parsedBy(parseVolume))
-        ->excludes(probes)
-        ->group(kGroup);
+    auto* volume =
+        command
+            .add_option("--volume", options.volume,
+                        "the grid itself: position of the first probe (X,Y,Z), metres between probes (S or SX,SY,SZ), "
+                        "probes per axis (XxYxZ)")
+            ->type_name("ORIGIN:SPACING:COUNTS")
+            ->check(parsedBy(parseVolume))
+            ->excludes(probes)
+            ->group(kGroup);
+    addVolumeOptions(command, options.volumes, {probes, volume});
 }
 
 }  // namespace

@@ -125,18 +125,42 @@ Result<PlacedCamera> makeCamera(const SceneOptions& options, const ScenePose& po
     return camera;
 }
 
-Result<VolumeDesc> makeGrid(const SceneOptions& options, const Scene& scene, const ScenePose& pose) {
+using Volumes = std::vector<VolumeDesc>;
+
+Result<Volumes> makeVolumes(const SceneOptions& options, const Scene& scene, const ScenePose& pose, glm::vec3 camera) {
+    if (options.volumes.cascades > 0) return cascadesAround(options.volumes, camera, pose.bounds);
     if (!options.volume.empty())
         return parseVolume(options.volume).transform([&](VolumeDesc grid) {
             grid.origin -= scene.origin;
-            return grid;
+            return Volumes{grid};
         });
     PlacementDesc placement;
-    if (!options.probes.empty())
+    if (!options.probes.empty()) {
         placement.counts = *parseCounts(options.probes);
-    else if (scene.grid)
-        return *scene.grid;
-    return automaticGrid(scene, pose, placement, options.threads);
+    } else if (scene.grid) {
+        Volumes volumes{*scene.grid};
+        volumes.insert(volumes.end(), scene.furtherGrids.begin(), scene.furtherGrids.end());
+        return volumes;
+    }
+    return automaticGrid(scene, pose, placement, options.threads).transform([](const VolumeDesc& grid) {
+        return Volumes{grid};
+    });
+}
+
+// A box around all probes, with the first volume's cells.
+VolumeDesc aroundAll(const Volumes& volumes) {
+    if (volumes.size() == 1) return volumes[0];
+    Bounds all{volumes[0].origin, volumes[0].origin};
+    for (const VolumeDesc& v : volumes)
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::vec3 cell(corner & 1, corner >> 1 & 1, corner >> 2);
+            const glm::vec3 place = v.origin + v.orientation * (cell * glm::vec3(v.counts - 1) * v.spacing);
+            all = {glm::min(all.lower, place), glm::max(all.upper, place)};
+        }
+    VolumeDesc box = volumes[0];
+    box.origin = all.lower;
+    box.counts = glm::ivec3(glm::ceil((all.upper - all.lower) / box.spacing)) + 1;
+    return box;
 }
 
 // How far a box reaches beyond the grid's outermost probes, on the axis where that is most cells.
@@ -158,13 +182,15 @@ Overhang overhang(const VolumeDesc& grid, glm::vec3 lower, glm::vec3 upper) {
 constexpr float kHarmlessCells = 0.5f;
 
 std::vector<std::string> gridWarnings(const LoadedSetup& setup) {
-    const Overhang surfaces = overhang(setup.grid, setup.pose.bounds.lower, setup.pose.bounds.upper);
+    const VolumeDesc box = aroundAll(setup.volumes);
+    const Overhang surfaces = overhang(box, setup.pose.bounds.lower, setup.pose.bounds.upper);
     if (surfaces.cells <= kHarmlessCells) return {};  // then a camera sees no surface outside
     std::vector<std::string> sentences{
-        fmt::format("the scene reaches {:.4g} m beyond its probe grid: surfaces there get the light "
-                    "of the nearest probes; cover all of it with --probes",
-                    surfaces.metres)};
-    const Overhang camera = overhang(setup.grid, setup.camera.position, setup.camera.position);
+        fmt::format("the scene reaches {:.4g} m beyond its probe grid: surfaces there get the light of {}; cover all "
+                    "of it with {}",
+                    surfaces.metres, setup.settings.outside == OutsideLight::fades ? "--outside" : "the nearest probes",
+                    setup.settings.camera ? "a larger --cascade-spacing, or more --cascades" : "--probes")};
+    const Overhang camera = overhang(box, setup.camera.position, setup.camera.position);
     if (camera.cells > kHarmlessCells)
         sentences.push_back(
             fmt::format("the camera stands {:.4g} m outside the probe grid, where no light is known", camera.metres));
@@ -191,6 +217,12 @@ Result<VolumeDesc> automaticGrid(const Scene& scene, const ScenePose& pose, cons
     if (tracer) return placeVolume(**tracer, placement);
     if (tracer.error().code == ErrorCode::unsupported) return byBounds;
     return tracer.error();
+}
+
+int probeCount(const LoadedSetup& setup) {
+    int sum = 0;
+    for (const VolumeDesc& volume : setup.volumes) sum += probegi::probeCount(volume);
+    return sum;
 }
 
 float shownExposure(const LoadedSetup& setup, const HdrImage& color) {
@@ -231,9 +263,11 @@ Result<LoadedSetup> loadSetup(const SceneOptions& options) {
     const auto camera = makeCamera(options, setup.pose, setup.scene->origin);
     if (!camera) return camera.error();
     setup.camera = *camera;
-    const auto grid = makeGrid(options, *setup.scene, setup.pose);
-    if (!grid) return grid.error();
-    setup.grid = *grid;
+    auto volumes = makeVolumes(options, *setup.scene, setup.pose, setup.camera.position);
+    if (!volumes) return volumes.error();
+    setup.volumes = std::move(*volumes);
+    setup.grid = setup.volumes.front();
+    setup.settings = fieldSettings(options.volumes, setup.volumes, setup.camera.position);
     for (std::string& warning : gridWarnings(setup)) {
         printWarning(warning);
         setup.warnings.push_back(std::move(warning));

@@ -12,6 +12,7 @@
 #include "probegi/field.h"
 #include "probegi/io.h"
 #include "probegi/tracer.h"
+#include "volume_options.h"
 
 namespace probegi::tool {
 
@@ -30,6 +31,7 @@ struct SceneOptions {
     std::string sky;                        ///< R,G,B or a file
 
     std::string volume, probes;      ///< --volume, --probes
+    VolumeOptions volumes;           ///< --cascades, --outside
     std::string exposure = "scene";  ///< --exposure
     ReadLimits limits;               ///< --unpack-limit
 };
@@ -46,7 +48,9 @@ struct LoadedSetup {
     ScenePose pose;
     Lighting lighting;  ///< without lights of zero intensity
     PlacedCamera camera;
-    VolumeDesc grid;
+    std::vector<VolumeDesc> volumes;    ///< of the field, at least one
+    FieldSettings settings;             ///< for it: what the options say
+    VolumeDesc grid;                    ///< the first of the volumes
     float exposure = 1.0f;              ///< as requested, or as the scene suggests
     bool automaticExposure = false;     ///< choose it for the picture
     std::vector<std::string> warnings;  ///< by the reader, and about surfaces outside the grid; one sentence each
@@ -59,6 +63,9 @@ Result<LoadedScene> readScene(const SceneOptions& options);
 /// The grid used if neither the scene nor the command line has one: over the scene, placed by its walls.
 Result<VolumeDesc> automaticGrid(const Scene& scene, const ScenePose& pose, const PlacementDesc& placement = {},
                                  int threads = 0);
+
+/// Probes of all volumes.
+int probeCount(const LoadedSetup& setup);
 
 /// The exposure to show a picture at: the setup's, or one chosen for the picture.
 float shownExposure(const LoadedSetup& setup, const HdrImage& color);

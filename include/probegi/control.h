@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -43,11 +44,19 @@ enum class ProbeActivity : std::uint8_t {
     vigilant,       ///< static surfaces use it: always updated
 };
 
+/// What light a point gets that no volume covers (FieldControl::coverage).
+enum class OutsideLight : std::uint8_t {
+    nearest,  ///< that of the nearest probes, however far they are
+    fades,    ///< FieldSettings::outsideRadiance, by the share that is not covered
+};
+
 /// What a Field is made of; fixed once it is made.
 struct FieldDesc {
     /// Its probes, 1..32 volumes. All have the same maps and share the rays of an update. Probes are numbered
     /// consecutively: slot 0 is the first probe of the first volume until that scrolls, the second volume follows the
-    /// last probe of the first. Where volumes overlap, the first one answers.
+    /// last probe of the first. Where volumes overlap, the one with most probes a cubic metre answers; over its last
+    /// cell the next one takes over (section 7.4). Let volumes overlap by a cell: where they only touch, light may have
+    /// a seam.
     std::vector<VolumeDesc> volumes = std::vector<VolumeDesc>(1);
     int raysPerProbe = 144;     ///< update rays per probe and frame, 8..4096
     int fixedRays = 16;         ///< more rays a probe and update, always along the same directions: they tell change
@@ -89,6 +98,12 @@ struct FieldSettings {
     float newDistribution = 0.8f;        ///< Listing 3, 0..1, same scale; 0 disables; both with FieldRules::paper only
     BackfaceRule backfaceRule = BackfaceRule::zeroSample;
     LeakGuard guard = LeakGuard::moments;
+    /// Where the viewer stands, metres, in the world: volumes with VolumeDesc::tracksCamera answer around it. Empty:
+    /// they answer as others do. Field::followCamera sets it.
+    std::optional<glm::vec3> camera{};
+    OutsideLight outside = OutsideLight::nearest;
+    /// With OutsideLight::fades: the same from all sides, W sr^-1 m^-2, 0..1e20.
+    glm::vec3 outsideRadiance{0.0f};
 
     bool operator==(const FieldSettings&) const = default;
 };
@@ -127,6 +142,16 @@ public:
     /// What the probe of a slot does, and where it stands: metres, in the world. Unchecked.
     ProbeActivity activity(int slot) const noexcept;
     glm::vec3 probePosition(int slot) const noexcept;
+    /// How far the volumes, as they stand, cover a point of the world: 1 in a volume and up to half a cell beyond its
+    /// outermost probes, then falling to 0 over one cell more; of several volumes the most. Of a volume that answers
+    /// around the camera (VolumeDesc::tracksCamera) that box counts. Unchecked: the point must be finite.
+    float coverage(glm::vec3 point) const noexcept;
+    /// The same for many points. Errors: invalidArgument (the spans are not equally long).
+    Result<void> coverage(std::span<const glm::vec3> points, std::span<float> out) const;
+    /// The share of each volume in the answer at a point, in the order of desc().volumes; they sum to 1. Outside of all
+    /// the nearest volume has it all. (Where a volume's probes are all new or in walls, others take over, which is not
+    /// counted here.) Errors: outOfMemory.
+    Result<std::vector<float>> volumeShares(glm::vec3 point) const;
 
     /// Announces a change to the scene (section 4.3). Durations count updates, whichever probes these update.
     void notify(FieldEvent event) noexcept;

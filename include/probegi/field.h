@@ -88,14 +88,22 @@ public:
     /// Moves the window of a volume by whole cells along the volume's axes, any number of them, so that it follows a
     /// camera (section 7.3; cellsToCentre() says how far). Probes that stay inside keep all they know. Those that enter
     /// take the slots of those that leave, and start empty: no look-up uses them before their first update, so update
-    /// in the same frame (where all around a point is new, the answer is black until then). Excludes queries, as an
-    /// update does. Errors: invalidArgument (no such volume; where coordinates are too coarse for its spacing, as
-    /// create(); from converge()'s callback), outOfMemory; of a field on a GPU also deviceLost. The volume is then
-    /// where it was.
+    /// in the same frame (where all around a point is new, and no other volume knows the light, the answer is black
+    /// until then). Excludes queries, as an update does. Errors: invalidArgument (no such volume; where coordinates are
+    /// too coarse for its spacing, as create(); from converge()'s callback), outOfMemory; of a field on a GPU also
+    /// deviceLost. The volume is then where it was.
     Result<void> scroll(int volume, glm::ivec3 cells);
 
-    /// Irradiance E in W m^-2. Unchecked and noexcept: vectors must be finite and unit (`toViewer`: or zero). Outside
-    /// all volumes the nearest one's nearest cell answers. A field on a GPU that was lost returns NaN.
+    /// Scrolls all volumes with VolumeDesc::tracksCamera after a camera (cellsToFollow(): with a dead band), and tells
+    /// look-ups where it is (FieldSettings::camera). Once a frame, before the update. Excludes queries, as scroll()
+    /// does. Errors: those of scroll(), invalidArgument too where the position is not finite; volumes that were
+    /// scrolled by then stay so, and look-ups know the camera where it was.
+    Result<void> followCamera(glm::vec3 camera);
+
+    /// Irradiance E in W m^-2. Unchecked and noexcept: vectors must be finite and unit (`toViewer`: or zero). Where
+    /// volumes overlap they blend; one whose probes around the point are all new or in walls leaves the answer to
+    /// others. Outside all of them the nearest one's nearest cell answers, or what FieldSettings::outside says. A field
+    /// on a GPU that was lost returns NaN.
     glm::vec3 irradiance(const FieldQuery& query) const noexcept;
 
     /// The same for many points, on all threads.
@@ -143,5 +151,20 @@ PROBEGI_API Result<VolumeDesc> placeVolume(const Bounds& bounds, const Placement
 /// is turned, ground that rolls) stay as above. Takes some 16,000 rays; the same grid for the same scene. Errors: those
 /// above, and those of the tracer.
 PROBEGI_API Result<VolumeDesc> placeVolume(const Tracer& tracer, const PlacementDesc& desc = {});
+
+/// Nested volumes around a point, each coarser than the one inside it (section 7.4).
+struct CascadeDesc {
+    glm::vec3 centre{0.0f};         ///< of all of them, metres: where the camera is, say
+    glm::vec3 spacing{0.5f};        ///< of the finest volume, metres, > 0
+    glm::ivec3 counts{24, 12, 24};  ///< probes per axis of each, 5..1024
+    int levels = 4;                 ///< 1..32; at most 2^24 probes in all of them
+    float factor = 2.0f;            ///< spacing from level to level, > 1, at most 16
+    bool tracksCamera = true;       ///< VolumeDesc::tracksCamera of all of them
+};
+
+/// The volumes for FieldDesc::volumes, the finest first. For what lies beyond the coarsest one, add a volume over the
+/// level, or see FieldSettings::outside.
+/// Errors: invalidArgument (the message names the member and its range).
+PROBEGI_API Result<std::vector<VolumeDesc>> makeCascades(const CascadeDesc& desc);
 
 }  // namespace probegi

@@ -19,7 +19,7 @@ struct LoadedScene {
 };
 
 /// Reads glTF 2.0 (.gltf with its files beside it, or .glb). If an .ini file of the same stem, in the format of
-/// NVIDIA's RTXGI test harness, lies beside it, its lights, cameras, sky and probe grid are added.
+/// NVIDIA's RTXGI test harness, lies beside it, its lights, cameras, sky and probe grids are added.
 /// A scene so far from the origin that single-precision coordinates are too coarse is moved to the origin
 /// (Scene::origin).
 /// Errors: fileNotFound, fileUnreadable, malformed, unsupported (a required extension, named), outOfMemory.

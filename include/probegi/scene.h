@@ -142,8 +142,9 @@ struct Scene {
     std::vector<Node> nodes{};
     std::vector<AnimationChannel> animations{};
     Sky sky{};
-    std::optional<VolumeDesc> grid{};  ///< a probe grid that came with the scene; empty: placed automatically
-    float exposure = 1.0f;             ///< suggested tone-map exposure for pictures of this scene
+    std::optional<VolumeDesc> grid{};        ///< a probe grid that came with the scene; empty: placed automatically
+    std::vector<VolumeDesc> furtherGrids{};  ///< more of them, at most 31; only where there is a `grid`
+    float exposure = 1.0f;                   ///< suggested tone-map exposure for pictures of this scene
     /// Position of this scene's (0, 0, 0) in the coordinates of its file, metres. Nonzero only if loadScene() moved a
     /// scene that was far from the origin.
     glm::vec3 origin{0.0f};

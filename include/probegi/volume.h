@@ -15,6 +15,11 @@ struct VolumeDesc {
     glm::ivec3 counts{2};     ///< probes per axis, 2..1024, at most 2^24 in all volumes of a field
     /// Turns the lattice about its origin: a unit quaternion from the volume's axes to the world's.
     glm::quat orientation{1.0f, 0.0f, 0.0f, 0.0f};
+    /// The volume scrolls after the camera (Field::followCamera), and once the camera's position is known
+    /// (FieldSettings::camera), it answers in a box around the camera itself, a cell smaller on each side than its
+    /// window: light then changes as the camera moves, not when the window leaps (section 7.4). At least 5 probes per
+    /// axis.
+    bool tracksCamera = false;
 
     bool operator==(const VolumeDesc&) const = default;
 };
@@ -22,6 +27,15 @@ struct VolumeDesc {
 /// By how many whole cells the volume's window must be scrolled (Field::scroll) so that a point of the world, the
 /// camera say, is within half a cell of its middle.
 PROBEGI_API glm::ivec3 cellsToCentre(const VolumeDesc& volume, glm::vec3 point) noexcept;
+
+/// Cells beyond the half by which a camera may leave the middle before a window follows it.
+inline constexpr float kFollowDeadBand = 0.25f;
+
+/// The same for a window that follows a camera frame by frame: 0 on every axis along which the camera is within half a
+/// cell and `deadBand` cells of the middle, else what cellsToCentre() says. So a camera that trembles on the seam of
+/// two cells moves nothing. `deadBand`: 0..0.5.
+PROBEGI_API glm::ivec3 cellsToFollow(const VolumeDesc& volume, glm::vec3 camera,
+                                     float deadBand = kFollowDeadBand) noexcept;
 
 inline int probeCount(const VolumeDesc& v) {
     return v.counts.x * v.counts.y * v.counts.z;

@@ -43,12 +43,14 @@ CpuField::CpuField(const Context& context, const FieldDesc& desc)
       m_desc(desc),
       m_layout(desc),
       m_volumes(makeVolumes(desc)),
+      m_byDensity(volumesByDensity(desc)),
       m_storage(m_layout),
       m_irradianceTaps(makeTapTable(desc.irradianceTexels)),
       m_visibilityTaps(makeTapTable(desc.visibilityTexels)) {}
 
 FieldView CpuField::view(const FieldSettings& settings) const noexcept {
     return {.volumes = m_volumes,
+            .order = volumeOrder(m_desc, settings, m_byDensity),
             .slots = int(m_layout.probes),
             .irradianceTexels = m_desc.irradianceTexels,
             .visibilityTexels = m_desc.visibilityTexels,

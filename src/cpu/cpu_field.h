@@ -42,6 +42,7 @@ private:
     FieldDesc m_desc;
     FieldLayout m_layout;
     std::vector<kernels::Volume> m_volumes;
+    std::vector<int> m_byDensity;
     FieldStorage m_storage;
     TapTable m_irradianceTaps, m_visibilityTaps;
     std::vector<RayDatum> m_rayData;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cpu/field_storage.h"
+#include "field/volume_access.h"
 #include "kernels/volume/volume.h"
 
 namespace probegi {
@@ -20,6 +21,7 @@ TapTable makeTapTable(int size);
 /// What a query reads: a view of a field on which nothing is checked.
 struct FieldView {
     std::span<const kernels::Volume> volumes;
+    VolumeOrder order{};
     int slots = 0;  ///< of all volumes
     int irradianceTexels = 8;
     int visibilityTexels = 16;
@@ -35,8 +37,8 @@ struct FieldView {
     const TapTable* visibilityTaps = nullptr;
 };
 
-/// E in W m^-2 at each query (section 2.2), on the calling thread. Of several volumes the first that holds a point
-/// answers, else the nearest.
+/// E in W m^-2 at each query (section 2.2), on the calling thread; of several volumes as kernels::blendedIrradiance()
+/// has it.
 void queryIrradiance(const FieldView& view, std::span<const FieldQuery> queries, std::span<glm::vec3> out);
 
 /// Mean and mean square of distance / maxDistance that the probe of a slot stores in a direction of the world.

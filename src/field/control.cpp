@@ -64,6 +64,7 @@ FieldControl::Impl::Impl(const FieldDesc& d, const FieldSettings& s)
       scrolled(d.volumes.size()),
       volumes(makeVolumes(d)),
       states(d),
+      byDensity(volumesByDensity(d)),
       tasks(tasksOf(volumes, states, {})),
       directions(std::size_t(d.raysPerProbe)) {
     turnRays();
@@ -81,7 +82,8 @@ void FieldControl::Impl::turnRays() noexcept {
 
 std::size_t FieldControl::Impl::bytes() const noexcept {
     return sizeof(*this) + (directions.capacity() + fixedDirections.capacity()) * sizeof(directions[0]) +
-           tasks.capacity() * sizeof(tasks[0]) + chosen.capacity() * sizeof(chosen[0]) + states.bytes();
+           tasks.capacity() * sizeof(tasks[0]) + chosen.capacity() * sizeof(chosen[0]) +
+           byDensity.capacity() * sizeof(byDensity[0]) + states.bytes();
 }
 
 void FieldControl::Impl::listTasks() {
@@ -217,6 +219,17 @@ Result<FieldControl::Impl::Placement> FieldControl::Impl::placementOf(const Fiel
     return placed;
 }
 
+Result<std::vector<glm::ivec3>> FieldControl::Impl::cellsAfter(glm::vec3 camera) const {
+    FieldSettings there = settings;
+    there.camera = camera;
+    if (auto ok = validateFieldSettings(there); !ok) return ok.error();
+    std::vector<glm::ivec3> cells(desc.volumes.size());
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        if (desc.volumes[i].tracksCamera)
+            cells[i] = cellsToFollow(scrolledVolume(desc.volumes[i], scrolled[i]), camera);
+    return cells;
+}
+
 void FieldControl::Impl::swapPlacement(Placement& other) noexcept {
     scrolled.swap(other.scrolled);
     volumes.swap(other.volumes);
@@ -252,6 +265,22 @@ int FieldControl::frame() const noexcept {
 }
 VolumeDesc FieldControl::place(int volume) const noexcept {
     return scrolledVolume(m_impl->desc.volumes[std::size_t(volume)], m_impl->scrolled[std::size_t(volume)]);
+}
+float FieldControl::coverage(glm::vec3 point) const noexcept {
+    return kernels::coverageAt(m_impl->volumeAccess(), point);
+}
+Result<void> FieldControl::coverage(std::span<const glm::vec3> points, std::span<float> out) const {
+    if (points.size() != out.size())
+        return fail(ErrorCode::invalidArgument, sentence("there are ", points.size(), " points and room for ",
+                                                         out.size(), " answers; both spans must be equally long"));
+    const VolumeAccess access = m_impl->volumeAccess();
+    for (std::size_t i = 0; i < points.size(); ++i) out[i] = kernels::coverageAt(access, points[i]);
+    return {};
+}
+Result<std::vector<float>> FieldControl::volumeShares(glm::vec3 point) const try {
+    return sharesOfVolumes(m_impl->volumeAccess(), point);
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, "no memory for the shares of the volumes");
 }
 void FieldControl::notify(FieldEvent event) noexcept {
     m_impl->events.notify(event);

@@ -5,6 +5,7 @@
 
 #include "field/probe_states.h"
 #include "field/update_frame.h"
+#include "field/volume_access.h"
 #include "probegi/control.h"
 #include "probegi/snapshot.h"
 
@@ -54,6 +55,10 @@ struct FieldControl::Impl {
     /// After the states have changed: the coming updates' tasks. May throw std::bad_alloc; the tasks are then those
     /// before.
     void listTasks();
+    /// The volumes and how they answer together, as they are now.
+    VolumeAccess volumeAccess() const noexcept { return {volumes, volumeOrder(desc, settings, byDensity)}; }
+    /// By how far each volume is to be scrolled after a camera. Errors: invalidArgument (not finite).
+    Result<std::vector<glm::ivec3>> cellsAfter(glm::vec3 camera) const;
     /// Exchanges the placement with another one.
     void swapPlacement(Placement& other) noexcept;
 
@@ -63,6 +68,7 @@ struct FieldControl::Impl {
     std::vector<kernels::Volume> volumes;  // as they stand now
     ProbeStates states;
     std::vector<std::uint32_t> chosen;  // slots that setTasks chose; empty: all
+    std::vector<int> byDensity;         // of the volumes
     std::vector<ProbeTask> tasks;
     std::uint32_t taskList = 0;           // number of the list; 0: all probes
     mutable std::uint32_t taskLists = 0;  // so far

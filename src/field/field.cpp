@@ -230,6 +230,19 @@ Result<void> Field::scroll(int volume, glm::ivec3 cells) try {
     return fail(ErrorCode::outOfMemory, kNoScrollMemory);
 }
 
+Result<void> Field::followCamera(glm::vec3 camera) try {
+    FieldControl::Impl& books = m_impl->books();
+    const auto cells = books.cellsAfter(camera);
+    if (!cells) return cells.error();
+    for (std::size_t i = 0; i < cells->size(); ++i)
+        if ((*cells)[i] != glm::ivec3(0))
+            if (auto scrolled = scroll(int(i), (*cells)[i]); !scrolled) return scrolled;
+    books.settings.camera = camera;
+    return {};
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, kNoScrollMemory);
+}
+
 Result<FieldSnapshot> Field::read() const {
     return read({0, probeCount(desc())});
 }

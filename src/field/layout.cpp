@@ -30,6 +30,15 @@ glm::ivec3 cellsToCentre(const VolumeDesc& volume, glm::vec3 point) noexcept {
     return result;
 }
 
+glm::ivec3 cellsToFollow(const VolumeDesc& volume, glm::vec3 camera, float deadBand) noexcept {
+    const glm::vec3 inVolume = glm::conjugate(volume.orientation) * (camera - volume.origin);
+    const glm::vec3 apart = inVolume / volume.spacing - 0.5f * glm::vec3(volume.counts - 1);
+    glm::ivec3 cells = cellsToCentre(volume, camera);
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::abs(apart[axis]) <= 0.5f + deadBand) cells[axis] = 0;
+    return cells;
+}
+
 VolumeDesc scrolledVolume(const VolumeDesc& volume, glm::ivec3 cells) {
     VolumeDesc moved = volume;
     // In double: a window may go far, and come back to the same place.

@@ -18,6 +18,9 @@ inline constexpr float kMaxDistanceInDiagonals = 1.5f;
 inline constexpr float kSmallestSpacing = 1e-6f;
 inline constexpr float kLargestSpacing = 1e9f;
 
+/// Fewest probes per axis of a volume with tracksCamera: the box in which it answers has a middle of weight 1.
+inline constexpr int kFewestTracking = 5;
+
 /// Sizes that follow from a FieldDesc. A probe's texels are contiguous, row by row, without a border: on the CPU
 /// octWrapTexel finds border texels instead of storing them twice.
 struct FieldLayout {

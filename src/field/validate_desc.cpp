@@ -22,6 +22,16 @@ Result<void> checkMapSize(const char* name, int size, int highest) {
     return fail(ErrorCode::invalidArgument, sentence(name, " is ", size, "; it must be even"));
 }
 
+Result<void> checkOutside(const FieldSettings& s) {
+    constexpr double kBrightest = 1e20;
+    for (int c = 0; c < 3; ++c) {
+        if (s.camera && !std::isfinite((*s.camera)[c]))
+            return fail(ErrorCode::invalidArgument, "the camera's position is not finite");
+        if (auto ok = checkRange("outsideRadiance", s.outsideRadiance[c], 0, kBrightest); !ok) return ok;
+    }
+    return {};
+}
+
 Result<void> checkOrientation(const std::string& name, const glm::quat& q) {
     constexpr float kTolerance = 1e-5f;
     const float square = glm::dot(q, q);
@@ -37,6 +47,9 @@ Result<void> checkVolume(const std::string& name, const VolumeDesc& volume) {
             return ok;
         if (auto ok = checkRange(name + ".counts", volume.counts[axis], 2, 1024); !ok) return ok;
     }
+    if (volume.tracksCamera && std::min({volume.counts.x, volume.counts.y, volume.counts.z}) < kFewestTracking)
+        return fail(ErrorCode::invalidArgument, sentence(name, ".tracksCamera needs at least ", kFewestTracking,
+                                                         " probes per axis: with fewer it would nowhere answer alone"));
     return checkOrientation(name, volume.orientation).and_then([&] { return validateVolumePlace(name, volume); });
 }
 
@@ -84,7 +97,8 @@ Result<void> validateFieldSettings(const FieldSettings& s) {
         .and_then([&] { return checkRange("visibilityExponent", s.visibilityExponent, 1, 500); })
         .and_then([&] { return checkRange("selfShadowBias", s.selfShadowBias, 0, 2); })
         .and_then([&] { return checkRange("significantChange", s.significantChange, 0, 1); })
-        .and_then([&] { return checkRange("newDistribution", s.newDistribution, 0, 1); });
+        .and_then([&] { return checkRange("newDistribution", s.newDistribution, 0, 1); })
+        .and_then([&] { return checkOutside(s); });
 }
 
 }  // namespace probegi

@@ -121,8 +121,8 @@ void addCamera(const Settings& settings, const std::string& key, Scene& scene) {
     scene.addNode(node);
 }
 
-std::optional<VolumeDesc> gridOf(const Settings& settings) {
-    const std::string key = "ddgi.volume.0.";
+// `key`: "ddgi.volume.0."
+std::optional<VolumeDesc> gridOf(const Settings& settings, const std::string& key) {
     if (!contains(settings, key + "probeCounts")) return {};
     constexpr float kMostPerAxis = 1024;  // far below where a float stops being an integer
     VolumeDesc grid;
@@ -135,8 +135,11 @@ std::optional<VolumeDesc> gridOf(const Settings& settings) {
     }
     grid.counts = glm::ivec3(counts);
     grid.spacing = vector(settings, key + "probeSpacing", glm::vec3(1.0f));
+    const glm::vec3 degrees = vector(settings, key + "rotation", glm::vec3(0.0f));
+    if (degrees != glm::vec3(0.0f)) grid.orientation = glm::normalize(glm::quat(glm::radians(degrees)));
     const glm::vec3 centre = vector(settings, key + "origin", glm::vec3(0.0f));
-    grid.origin = centre - 0.5f * grid.spacing * glm::vec3(grid.counts - 1);
+    const glm::vec3 half = 0.5f * grid.spacing * glm::vec3(grid.counts - 1);
+    grid.origin = centre - (degrees == glm::vec3(0.0f) ? half : grid.orientation * half);
     return grid;
 }
 
@@ -151,17 +154,19 @@ void forEachEntry(const Settings& settings, const std::string& list, const Add& 
     }
 }
 
-/// Indices of the volumes after the first.
-std::vector<std::string> furtherVolumes(const Settings& settings) {
+/// The numbers of the probe volumes, in their order.
+std::vector<int> volumeNumbers(const Settings& settings) {
     constexpr std::string_view kPrefix = "ddgi.volume.";
-    std::vector<std::string> numbers;
+    std::vector<int> numbers;
     for (auto entry = settings.lower_bound(std::string(kPrefix)); entry != settings.end(); ++entry) {
         if (entry->first.compare(0, kPrefix.size(), kPrefix) != 0) break;
-        std::string number = entry->first.substr(kPrefix.size());
-        number.resize(std::min(number.find('.'), number.size()));
-        const bool known = std::find(numbers.begin(), numbers.end(), number) != numbers.end();
-        if (number != "0" && !known) numbers.push_back(std::move(number));
+        const char *begin = entry->first.data() + kPrefix.size(), *end = entry->first.data() + entry->first.size();
+        int number = 0;
+        const auto [rest, error] = std::from_chars(begin, end, number);
+        if (error == std::errc() && rest != end && *rest == '.' && number >= 0) numbers.push_back(number);
     }
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
     return numbers;
 }
 
@@ -170,21 +175,25 @@ bool saysYes(const Settings& settings, const std::string& key) {
     return !value.empty() && value != "0" && value != "false";
 }
 
-std::vector<std::string> ignoredSettings(const Settings& settings) {
-    std::vector<std::string> sentences;
-    if (const auto further = furtherVolumes(settings); !further.empty())
-        sentences.push_back(
-            fmt::format("of the settings' {} probe volumes only ddgi.volume.0 is used, {} ignored: "
-                        "points outside volume 0 use its nearest probes",
-                        further.size() + 1,
-                        further.size() == 1 ? further[0] + " is" : fmt::format("{} are", fmt::join(further, ", "))));
-    constexpr const char* kRotation = "ddgi.volume.0.rotation";
-    if (contains(settings, kRotation) && vector(settings, kRotation, glm::vec3(0.0f)) != glm::vec3(0.0f))
-        sentences.push_back(fmt::format("the setting {} is ignored: the probe grid is axis-aligned", kRotation));
-    constexpr const char* kScrolling = "ddgi.volume.0.infiniteScrolling.enabled";
-    if (saysYes(settings, kScrolling))
-        sentences.push_back(fmt::format("the setting {} is ignored: the probe grid does not scroll", kScrolling));
-    return sentences;
+/// Adds all probe volumes; a sentence for each setting of theirs that is not used.
+std::vector<std::string> addVolumes(const Settings& settings, Scene& scene) {
+    std::vector<std::string> ignored;
+    std::vector<VolumeDesc> grids;
+    for (const int number : volumeNumbers(settings)) {
+        const std::string key = fmt::format("ddgi.volume.{}.", number);
+        const auto grid = gridOf(settings, key);
+        if (!grid && number > 0)
+            ignored.push_back(fmt::format("the probe volume ddgi.volume.{} is ignored: it has no probeCounts", number));
+        if (saysYes(settings, key + "infiniteScrolling.enabled"))
+            ignored.push_back(
+                fmt::format("the setting {}infiniteScrolling.enabled is ignored: the probe grid does not scroll", key));
+        if (grid) grids.push_back(*grid);
+    }
+    if (!grids.empty()) {
+        scene.grid = grids.front();
+        scene.furtherGrids.assign(grids.begin() + 1, grids.end());
+    }
+    return ignored;
 }
 
 }  // namespace
@@ -197,8 +206,7 @@ std::vector<std::string> addHarnessSettings(std::istream& stream, Scene& scene) 
         scene.sky.radiance =
             number(settings, "scene.skyIntensity", 1.0f) * vector(settings, "scene.skyColor", glm::vec3(0.0f));
     }
-    if (const auto grid = gridOf(settings)) scene.grid = grid;
-    return ignoredSettings(settings);
+    return addVolumes(settings, scene);
 }
 
 }  // namespace probegi::io

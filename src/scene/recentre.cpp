@@ -49,6 +49,7 @@ bool recentre(Scene& scene) {
         if (root && channel.path == AnimationPath::translation) moveKeys(channel, shift);
     }
     if (scene.grid) scene.grid->origin -= shift;
+    for (VolumeDesc& grid : scene.furtherGrids) grid.origin -= shift;
     scene.origin += shift;
     return true;
 }

@@ -1,3 +1,5 @@
+#include <string>
+
 #include "scene/checks.h"
 
 namespace probegi {
@@ -31,6 +33,42 @@ Result<void> validateExtent(const Scene& scene) {
     return {};
 }
 
+// Adds the grid's probes to `probes`.
+Result<void> validateGrid(const std::string& name, const VolumeDesc& grid, std::int64_t& probes) {
+    if (!finite(grid.origin)) return malformed(name, ": origin ", text(grid.origin), " must be finite");
+    if (!finite(grid.spacing) || grid.spacing.x <= 0 || grid.spacing.y <= 0 || grid.spacing.z <= 0) {
+        return malformed(name, ": spacing ", text(grid.spacing), " must be finite and > 0");
+    }
+    std::int64_t product = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int count = grid.counts[axis];
+        if (count < 2 || count > 1024) {
+            return malformed(name, ": ", count, " probes along axis ", "xyz"[axis], " must be 2..1024");
+        }
+        product *= count;
+    }
+    probes += product;
+    if (probes > (1 << 24)) return malformed(name, ": ", probes, " probes are more than 2^24; use fewer");
+    return {};
+}
+
+Result<void> validateGrids(const Scene& scene) {
+    constexpr std::size_t kMostFurther = 31;
+    if (scene.furtherGrids.size() > kMostFurther) {
+        return malformed("scene: ", scene.furtherGrids.size() + 1, " probe grids are more than ", kMostFurther + 1);
+    }
+    if (!scene.grid) {
+        return scene.furtherGrids.empty() ? Result<void>() : malformed("scene: further probe grids without a first");
+    }
+    std::int64_t probes = 0;
+    if (auto ok = validateGrid("probe grid", *scene.grid, probes); !ok) return ok;
+    for (std::size_t i = 0; i < scene.furtherGrids.size(); ++i) {
+        const std::string name = "probe grid " + std::to_string(i + 1);
+        if (auto ok = validateGrid(name, scene.furtherGrids[i], probes); !ok) return ok;
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<void> validateSurroundings(const Scene& scene) {
@@ -49,22 +87,7 @@ Result<void> validateSurroundings(const Scene& scene) {
     if (!finite(scene.exposure) || scene.exposure <= 0) {
         return malformed("scene: exposure ", scene.exposure, " must be finite and > 0");
     }
-    if (!scene.grid) return {};
-    const VolumeDesc& grid = *scene.grid;
-    if (!finite(grid.origin)) return malformed("probe grid: origin ", text(grid.origin), " must be finite");
-    if (!finite(grid.spacing) || grid.spacing.x <= 0 || grid.spacing.y <= 0 || grid.spacing.z <= 0) {
-        return malformed("probe grid: spacing ", text(grid.spacing), " must be finite and > 0");
-    }
-    std::int64_t product = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-        const int count = grid.counts[axis];
-        if (count < 2 || count > 1024) {
-            return malformed("probe grid: ", count, " probes along axis ", "xyz"[axis], " must be 2..1024");
-        }
-        product *= count;
-    }
-    if (product > (1 << 24)) return malformed("probe grid: ", product, " probes are more than 2^24; use fewer");
-    return {};
+    return validateGrids(scene);
 }
 
 Result<void> validate(const Scene& scene) {

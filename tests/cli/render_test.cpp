@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cli/tool.h"
 #include "probegi/image.h"
@@ -66,6 +68,55 @@ TEST(Render, EveryMethodMakesAPicture) {
     EXPECT_GT(ddgi, none);
     EXPECT_GT(leaky, none);
     EXPECT_GT(reference, none);
+}
+
+// A tiny render of which a warning is no failure: of surfaces where there are no probes.
+HdrImage renderWarned(std::vector<std::string> arguments) {
+    const TemporaryFolder folder;
+    const std::string out = folder.file("a.exr");
+    arguments.insert(arguments.begin(), {"render", "builtin:cornell", "-o", out, "--size", "32x18"});
+    EXPECT_EQ(runTool(arguments).exitCode, 0) << testing::PrintToString(arguments);
+    return readImage(out).value();
+}
+
+std::vector<std::string> cascades(std::vector<std::string> more) {
+    more.insert(more.end(), {"--cascades", "2", "--cascade-probes", "8x8x8", "--frames", "2", "--rays", "32"});
+    return more;
+}
+
+TEST(Render, CascadesLightAScene) {
+    const double grid = mean(render(quick({"--aov", "indirect"})));
+    EXPECT_NEAR(mean(render(cascades({"--aov", "indirect"}))) / grid, 1.0, 0.4);
+    // Small ones around a camera that looks from afar: what lies beyond is as bright as it is told to be.
+    const auto beyond = [&](const char* radiance) {
+        return mean(
+            renderWarned(cascades({"--aov", "irradiance", "--cascade-spacing", "0.01", "--outside", radiance})));
+    };
+    EXPECT_EQ(beyond("0,0,0"), 0.0);
+    EXPECT_NEAR(beyond("3,3,3") / beyond("1,1,1"), 3.0, 1e-3);
+}
+
+TEST(Render, DebugViewsShowVolumesAndWhatTheyCover) {
+    // Reddish, greenish... of the surfaces; the sky is black.
+    const auto hues = [](const HdrImage& image) {
+        std::set<std::array<int, 3>> found;
+        for (const glm::vec3& pixel : image.pixels)
+            if (const float most = std::max({pixel.x, pixel.y, pixel.z}); most > 0)
+                found.insert({int(8 * pixel.x / most), int(8 * pixel.y / most), int(8 * pixel.z / most)});
+        return found.size();
+    };
+    const HdrImage one = render({"--debug", "volumes", "--probes", "4x4x4"});
+    EXPECT_LE(hues(one), 3u) << "one volume has one colour";
+    EXPECT_GE(hues(renderWarned(cascades({"--debug", "volumes", "--look-from", "4,2.7,-4"}))), hues(one) + 2)
+        << "two, and what is between them";
+    const HdrImage covered = render({"--debug", "coverage", "--probes", "4x4x4"}),
+                   away = renderWarned({"--debug", "coverage", "--volume", "50,0,0:1:3x3x3"});
+    for (std::size_t i = 0; i < covered.pixels.size(); ++i) {
+        EXPECT_GE(covered.pixels[i].y, covered.pixels[i].x) << "green";
+        EXPECT_GE(away.pixels[i].x, away.pixels[i].y) << "red";
+    }
+    EXPECT_GT(mean(covered), 0.01);
+    EXPECT_GT(mean(away), 0.01);
 }
 
 TEST(Render, UntilConverged) {

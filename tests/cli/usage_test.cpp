@@ -36,7 +36,9 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{"--time-of-scene", "late"}, std::pair{"--wall", "1"}, std::pair{"--albedo", "1"},
                     std::pair{"--emission", "-1"}, std::pair{"--power", "0"}, std::pair{"--radius", "0"},
                     std::pair{"--unpack-limit", "0"}, std::pair{"--unpack-limit", "1.5"},
-                    std::pair{"--unpack-limit", "-5"}, std::pair{"--backend", "cuda"}, std::pair{"--tracer", "embree"}),
+                    std::pair{"--unpack-limit", "-5"}, std::pair{"--cascades", "0"}, std::pair{"--cascades", "9"},
+                    std::pair{"--outside", "far"}, std::pair{"--outside", "-1,0,0"}, std::pair{"--debug", "walls"},
+                    std::pair{"--backend", "cuda"}, std::pair{"--tracer", "embree"}),
     [](const auto& instance) {
         std::string name = instance.param.first + "_" + std::to_string(instance.index);
         std::erase_if(name, [](char c) { return c == '-'; });
@@ -48,6 +50,22 @@ TEST(Usage, UnknownOptionsAndCommandsAreRefused) {
     expectRefused({"paint"}, "paint", 2);
     expectRefused({"--frobnicate"}, "--frobnicate", 2);
     expectRefused({"scenes", "extra"}, "extra", 2);
+}
+
+TEST(Usage, CascadesAndDebugViewsThatCannotBeAreRefused) {
+    const auto refused = [](std::vector<std::string> options, const std::string& mentions, int exitCode) {
+        const TemporaryFolder folder;
+        options.insert(options.begin(), {"render", "builtin:cornell", "-o", folder.file("a.png")});
+        expectRefused(options, mentions, exitCode);
+    };
+    refused({"--cascades", "2", "--probes", "4x4x4"}, "--probes", 2);
+    refused({"--cascades", "2", "--volume", "0,0,0:1:4x4x4"}, "--volume", 2);
+    refused({"--cascade-spacing", "1"}, "--cascades", 2);
+    refused({"--cascade-probes", "8x8x8"}, "--cascades", 2);
+    refused({"--cascades", "2", "--cascade-spacing", "0"}, "--cascade-spacing", 2);
+    refused({"--cascades", "2", "--cascade-probes", "8x4x8"}, "counts is 4", 1);
+    refused({"--debug", "volumes", "--method", "none"}, "--debug", 2);
+    refused({"--debug", "volumes", "--method", "reference"}, "--debug", 2);
 }
 
 TEST(Usage, MissingArgumentsAreNamed) {

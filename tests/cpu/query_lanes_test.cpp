@@ -10,6 +10,7 @@
 
 #include "cpu/field_view.h"
 #include "field/layout.h"
+#include "field/volume_access.h"
 #include "kernels/probe/storage.h"
 #include "kernels/volume/volume_choice.h"
 #include "scalar_query.h"
@@ -159,7 +160,7 @@ TEST(QueryLanes, answerInTurnedVolumesAsOneAtATime) {
     }
 }
 
-// The same bits as each volume's alone; points outside all volumes go to the nearest.
+// Where one volume alone answers, its own bits; points outside all volumes go to the nearest.
 TEST(QueryLanes, eachPointIsAnsweredByItsVolume) {
     RandomField field(LeakGuard::moments, FieldRules::measured, 16);
     field.makeVisibilityTaps();
@@ -177,15 +178,23 @@ TEST(QueryLanes, eachPointIsAnsweredByItsVolume) {
     field.volumes() = all;
     queryIrradiance(field.view(), points, together);
     std::array<int, 3> answered{};
+    int blended = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto shares = sharesOfVolumes({all, {}}, points[i].position);
+        if (std::ranges::count(shares, 1.0f) != 1) {
+            ++blended;
+            continue;
+        }
         kernels::VolumeChoice choice = kernels::noVolume();
         for (int v = 0; v < 3; ++v) choice = kernels::chooseVolume(choice, all[std::size_t(v)], v, points[i].position);
         field.volumes() = {all[std::size_t(choice.volume)]};
         glm::vec3 alone;
         queryIrradiance(field.view(), {&points[i], 1}, {&alone, 1});
         EXPECT_EQ(alone, together[i]) << i;
+        EXPECT_EQ(shares[std::size_t(choice.volume)], 1.0f) << i;
         ++answered[std::size_t(choice.volume)];
     }
+    EXPECT_GT(blended, 50);
     for (const int count : answered) EXPECT_GT(count, 100);
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <sstream>
 
 #include "io/refused.h"
@@ -85,19 +86,35 @@ std::vector<std::string> ignoredOf(const std::string& text) {
     return io::addHarnessSettings(stream, scene);
 }
 
+TEST(HarnessIni, ReadsAllVolumesInTheOrderOfTheirNumbers) {
+    const auto scene = readSettings(
+        "ddgi.volume.10.probeCounts=2 3 4\nddgi.volume.10.probeSpacing=2 2 2\nddgi.volume.10.origin=7 8 9\n"
+        "ddgi.volume.0.probeCounts=9 5 3\nddgi.volume.2.probeCounts=5 5 5\n"
+        "ddgi.volume.2.origin=1 0 0\nddgi.volume.2.rotation=0 90 0\n");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(validate(*scene));
+    ASSERT_TRUE(scene->grid);
+    EXPECT_EQ(scene->grid->counts, glm::ivec3(9, 5, 3));
+    EXPECT_EQ(scene->grid->orientation, glm::quat(1, 0, 0, 0));
+    ASSERT_EQ(scene->furtherGrids.size(), 2u);
+    const VolumeDesc &turned = scene->furtherGrids[0], &last = scene->furtherGrids[1];
+    EXPECT_EQ(last.counts, glm::ivec3(2, 3, 4));
+    expectNear(last.origin, {6, 6, 6});
+    // About its middle: the first probe, at -2 on all axes before, goes where a quarter turn about y takes it.
+    expectNear(turned.origin, {-1, -2, 2});
+    expectNear(0.5f * (turned.origin + probePosition(turned, 124)), {1, 0, 0});
+    expectNear(probePosition(turned, 1), turned.origin + glm::vec3(0, 0, -1));
+}
+
 TEST(HarnessIni, SaysWhatItIgnores) {
     const std::string volume = "ddgi.volume.0.probeCounts=9 5 3\n";
     EXPECT_THAT(ignoredOf(volume + "ddgi.volume.0.infiniteScrolling.enabled=0\nddgi.volume.0.rotation=0 0 0\n"),
                 testing::IsEmpty());
-    const auto volumes = ignoredOf(volume +
-                                   "ddgi.volume.1.probeCounts=2 2 2\nddgi.volume.1.name=a\n"
-                                   "ddgi.volume.10.origin=1 2 3\nddgi.volume.2.name=b\n");
-    ASSERT_EQ(volumes.size(), 1u);
-    EXPECT_THAT(volumes[0], HasSubstr("4 probe volumes"));
-    EXPECT_THAT(volumes[0], HasSubstr("1, 10, 2 are ignored"));
-    const auto turned = ignoredOf(volume + "ddgi.volume.0.rotation=0 0.5 0\n");
-    ASSERT_EQ(turned.size(), 1u);
-    EXPECT_THAT(turned[0], HasSubstr("ddgi.volume.0.rotation is ignored"));
+    EXPECT_THAT(ignoredOf(volume + "ddgi.volume.1.probeCounts=2 2 2\nddgi.volume.0.rotation=0 0.5 0\n"),
+                testing::IsEmpty());
+    const auto empty = ignoredOf(volume + "ddgi.volume.10.origin=1 2 3\nddgi.volume.x.name=b\n");
+    ASSERT_EQ(empty.size(), 1u);
+    EXPECT_THAT(empty[0], HasSubstr("ddgi.volume.10 is ignored: it has no probeCounts"));
     const auto scrolling = ignoredOf(volume + "ddgi.volume.0.infiniteScrolling.enabled=1\n");
     ASSERT_EQ(scrolling.size(), 1u);
     EXPECT_THAT(scrolling[0], HasSubstr("infiniteScrolling.enabled is ignored"));
@@ -127,6 +144,8 @@ TEST(HarnessIni, BadValuesNameTheirKey) {
     refused("scene.lights.0.direction=0 0 0\n", "no direction");
     refused("ddgi.volume.0.probeCounts=1 9 9\n", "probeCounts");
     refused("ddgi.volume.0.probeCounts=1e9 9 9\n", "probeCounts");
+    refused("ddgi.volume.3.probeCounts=1 9 9\n", "ddgi.volume.3.probeCounts");
+    refused("ddgi.volume.0.probeCounts=9 9 9\nddgi.volume.0.rotation=0 up 0\n", "rotation");
 }
 
 }  // namespace

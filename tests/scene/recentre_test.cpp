@@ -35,6 +35,7 @@ Scene sceneAt(glm::vec3 at, bool byVertices = false) {
     camera.translation = at + glm::vec3(0, 0, 4);
     scene.addNode(camera);
     scene.grid = VolumeDesc{at, glm::vec3(0.5f), glm::ivec3(4)};
+    scene.furtherGrids = {VolumeDesc{at + 1.0f, glm::vec3(0.25f), glm::ivec3(3)}};
     return scene;
 }
 
@@ -48,6 +49,7 @@ void expectSameScene(const Scene& moved, const Scene& reference) {
     EXPECT_EQ(a.lights[0].position - b.lights[0].position, shift);
     EXPECT_EQ(a.cameras[0].position - b.cameras[0].position, shift);
     EXPECT_EQ(moved.grid->origin - reference.grid->origin, shift);
+    EXPECT_EQ(moved.furtherGrids[0].origin - reference.furtherGrids[0].origin, shift);
     EXPECT_EQ(moved.origin + shift, kFar);
     for (int axis = 0; axis < 3; ++axis) EXPECT_LE(std::abs(a.bounds.centre()[axis]), 4) << axis;
 }

@@ -126,6 +126,25 @@ const Defect kDefects[] = {
     {"gridOrigin", [](Scene& s) { s.grid->origin.x = kNan; }, {"probe grid", "origin"}},
     {"gridSpacing", [](Scene& s) { s.grid->spacing.y = 0; }, {"probe grid", "spacing"}},
     {"gridCount", [](Scene& s) { s.grid->counts.z = 1; }, {"probe grid", "1 probes along axis z"}},
+    {"secondGrid",
+     [](Scene& s) {
+         s.furtherGrids = {VolumeDesc{}, VolumeDesc{}};
+         s.furtherGrids[1].spacing.x = -1;
+     },
+     {"probe grid 2", "spacing"}},
+    {"gridsTotal",
+     [](Scene& s) {
+         s.furtherGrids.assign(5, VolumeDesc{});
+         for (VolumeDesc& grid : s.furtherGrids) grid.counts = glm::ivec3(150);
+     },
+     {"probe grid 5", "2^24"}},
+    {"gridsWithoutAFirst",
+     [](Scene& s) {
+         s.grid.reset();
+         s.furtherGrids = {VolumeDesc{}};
+     },
+     {"without a first"}},
+    {"tooManyGrids", [](Scene& s) { s.furtherGrids.assign(32, VolumeDesc{}); }, {"33 probe grids"}},
     {"gridTotal", [](Scene& s) { s.grid->counts = glm::ivec3(1024, 1024, 17); }, {"probe grid", "17825792", "2^24"}},
     {"worldOverflow", [](Scene& s) { s.nodes[0].scale = glm::vec3(1e20f); }, {"node 0", "too large"}},
     {"worldTooFar", [](Scene& s) { s.nodes[0].scale = glm::vec3(1e12f); }, {"coordinates beyond"}},

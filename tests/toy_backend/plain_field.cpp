@@ -7,18 +7,18 @@
 #include "field/guard_number.h"
 #include "field/probe_emitters.h"
 #include "field/snapshot.h"
+#include "field/volume_access.h"
 #include "kernels/lookup/access.h"
-#include "kernels/lookup/irradiance.h"
+#include "kernels/lookup/volume_blend.h"
 #include "kernels/probe/octahedral_texel.h"
 #include "kernels/probe/probe_texel.h"
-#include "kernels/volume/volume_choice.h"
 
 namespace probegi::test {
 
 namespace {
 
 /// How the look-up's kernels read a snapshot.
-struct SnapshotAccess {
+struct SnapshotAccess : VolumeAccess {
     using MapPoint = glm::vec3;
     int rules;
     int guard;
@@ -55,7 +55,10 @@ struct SnapshotAccess {
 }  // namespace
 
 PlainField::PlainField(const Context& context, const FieldDesc& desc)
-    : m_context(context), m_volumes(makeVolumes(desc)), m_probes(emptySnapshot(desc, {0, probeCount(desc)})) {}
+    : m_context(context),
+      m_volumes(makeVolumes(desc)),
+      m_byDensity(volumesByDensity(desc)),
+      m_probes(emptySnapshot(desc, {0, probeCount(desc)})) {}
 
 // A probe that has had no update keeps nothing of what it holds.
 FrameHysteresis PlainField::keptBy(const UpdateFrame& frame, const ProbeTask& task) const {
@@ -149,13 +152,14 @@ Result<UpdateTimes> PlainField::update(const UpdateFrame& frame, const Tracer& t
 }
 
 glm::vec3 PlainField::irradiance(const FieldSettings& settings, const FieldQuery& query) const noexcept {
-    const SnapshotAccess access{
-        kernels::kRulesPaper, guardNumber(settings.guard), settings.selfShadowBias, m_probes, m_volumes, m_fallbacks};
-    kernels::VolumeChoice choice = kernels::noVolume();
-    for (std::size_t i = 0; i < m_volumes.size(); ++i)
-        choice = kernels::chooseVolume(choice, m_volumes[i], int(i), query.position);
-    return kernels::irradianceIn(access, m_volumes[std::size_t(choice.volume)], query.position, query.normal,
-                                 query.toViewer);
+    const SnapshotAccess access{{m_volumes, volumeOrder(m_probes.desc, settings, m_byDensity)},
+                                kernels::kRulesPaper,
+                                guardNumber(settings.guard),
+                                settings.selfShadowBias,
+                                m_probes,
+                                m_volumes,
+                                m_fallbacks};
+    return kernels::blendedIrradiance(access, query.position, query.normal, query.toViewer);
 }
 
 Result<void> PlainField::irradiance(const FieldSettings& settings, std::span<const FieldQuery> queries,

@@ -40,6 +40,7 @@ private:
 
     Context m_context;
     std::vector<kernels::Volume> m_volumes;
+    std::vector<int> m_byDensity;
     FieldSnapshot m_probes;  // all of them
     mutable std::atomic<std::uint64_t> m_fallbacks{0};
 };

@@ -130,6 +130,50 @@ TEST_F(VulkanRecorded, aVolumeScrollsBetweenUpdates) {
     EXPECT_NE(volume.control().place(0), world.desc.volumes[0]);
 }
 
+// Cascades that follow a camera, asked by a shader of the engine: irradiance and coverage.
+TEST_F(VulkanRecorded, cascadesFollowACamera) {
+    const vulkan::Device device = adopt();
+    FieldSetup setup = world.desc;
+    const glm::vec3 middle = world.pose.bounds.centre(), spacing = 0.08f * world.pose.bounds.size();
+    setup.volumes = makeCascades({.centre = middle, .spacing = spacing, .counts = glm::ivec3(5), .levels = 2}).value();
+    GpuField volumes = *GpuField::create(device, setup, setup);
+    Field onCpu = *Field::create(log, setup, setup);
+    rays.clear();
+    for (const ProbeTask& task : onCpu.control().tasks())
+        rays.insert(rays.end(), std::size_t(setup.raysPerProbe), {glm::vec3(1.0f + float(task.volume)), 50.0f});
+    rayBuffer = engine.makeBuffer(std::span<const RayDatum>(rays));
+    std::vector<FieldQuery> more = queries;
+    for (const FieldQuery& q : queries) more.push_back({q.position, glm::vec3(0.0f), glm::vec3(0.0f)});
+    questions = engine.makeBuffer(std::span<const FieldQuery>(more));
+    const EngineBuffer answered = engine.makeBuffer(more.size() * sizeof(glm::vec3));
+    QueryShader shader(engine, PROBEGI_QUERY_SPIRV, questions, answered);
+    volumes.writeQueryBindings(shader.volumeSet(), QueryShader::kFirstBinding);
+    const glm::vec3 camera = middle + 1.3f * spacing;
+    engine.run([&](VkCommandBuffer commands) {
+        volumes.recordClear(commands).value();
+        volumes.recordFollowCamera(commands, camera).value();
+        volumes.recordUpdate(commands, rayBuffer.range()).value();
+        shader.record(commands, std::uint32_t(more.size()));
+        const float bad = std::numeric_limits<float>::infinity();
+        EXPECT_EQ(volumes.recordFollowCamera(commands, {bad, 0, 0}).error().code, ErrorCode::invalidArgument);
+    });
+    onCpu.followCamera(camera).value();
+    onCpu.update(rays).value();
+    EXPECT_EQ(volumes.control().place(0), onCpu.control().place(0));
+    EXPECT_NE(volumes.control().place(0), setup.volumes[0]);
+    std::vector<glm::vec3> wanted(queries.size());
+    onCpu.irradiance(queries, wanted).value();
+    int covered = 0;
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        const glm::vec3 e = answered.as<glm::vec3>()[i], c = answered.as<glm::vec3>()[queries.size() + i];
+        EXPECT_NEAR(e.x, wanted[i].x, 2e-3f * wanted[i].x) << i;
+        EXPECT_NEAR(c.x, onCpu.control().coverage(queries[i].position), 1e-4f) << i;
+        covered += c.x > 0 ? 1 : 0;
+    }
+    EXPECT_GT(covered, 20);
+    EXPECT_LT(covered, 200);
+}
+
 TEST_F(VulkanRecorded, updatesAndQueriesInSubmitsOfTheirOwn) {
     const vulkan::Device device = adopt();
     GpuField volume = *GpuField::create(device, world.desc, world.desc);

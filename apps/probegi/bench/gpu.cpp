@@ -59,9 +59,9 @@ Result<GpuBench> makeGpuBench(const LoadedSetup& setup, const BackendOptions& ba
     auto tracer = vulkan::makeTracer(*context, *device, *setup.scene, setup.pose, scene);
     if (!tracer) return tracer.error();
     FieldDesc desc;
-    desc.volumes = {setup.grid};
+    desc.volumes = setup.volumes;
     desc.raysPerProbe = plan.raysPerProbe;
-    auto field = vulkan::makeField(*context, *device, desc);
+    auto field = vulkan::makeField(*context, *device, desc, setup.settings);
     if (!field) return field.error();
     auto points = picturePoints(**tracer, primaryRays(setup.camera, plan.width, plan.height));
     if (!points) return points.error();
@@ -106,7 +106,7 @@ GpuBenchResult GpuBench::facts() const {
     result.driver = info.driver;
     result.api = info.api;
     result.type = info.type;
-    result.probes = probeCount(setup.grid);
+    result.probes = probeCount(setup);
     result.raysPerProbe = field.desc().raysPerProbe;
     result.width = width;
     result.height = height;

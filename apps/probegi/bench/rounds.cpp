@@ -82,11 +82,11 @@ Result<std::unique_ptr<Bench>> Bench::create(const LoadedSetup& setup, const Ben
     if (!tracer) return tracer.error();
     bench->m_tracer = std::move(*tracer);
     FieldDesc desc;
-    desc.volumes = {setup.grid};
+    desc.volumes = setup.volumes;
     desc.raysPerProbe = plan.raysPerProbe;
-    auto field = Field::create(*all, desc), alone = Field::create(*one, desc);
+    auto field = Field::create(*all, desc, setup.settings), alone = Field::create(*one, desc, setup.settings);
     desc.probeStates = true;
-    auto active = Field::create(*all, desc);
+    auto active = Field::create(*all, desc, setup.settings);
     if (!field) return field.error();
     if (!alone) return alone.error();
     if (!active) return active.error();
@@ -145,7 +145,7 @@ Result<BenchRound> Bench::round() {
 BenchResult Bench::facts() const {
     BenchResult result;
     result.threads = m_all.threads();
-    result.probes = probeCount(m_setup.grid);
+    result.probes = probeCount(m_setup);
     result.raysPerProbe = m_plan.raysPerProbe;
     result.activeProbes = int(m_fieldOfActive->control().tasks().size());
     result.fixedRays = int(m_field->control().fixedRayDirections().size());

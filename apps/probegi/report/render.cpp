@@ -118,7 +118,7 @@ Result<FieldResult> fillAndMeasure(const Studio& studio, const ProbeTruth& truth
 
 FieldDesc fieldDesc(const Studio& studio) {
     FieldDesc desc;
-    desc.volumes = {studio.setup.grid};
+    desc.volumes = studio.setup.volumes;
     desc.raysPerProbe = studio.settings.raysPerProbe;
     desc.seed = studio.settings.seed;
     return desc;
@@ -147,7 +147,7 @@ Result<std::vector<ProbeSight>> lookAtProbes(const Field& field) {
 /// Fills a new field by real-time updates and draws the first camera's picture with it.
 Result<FieldPicture> drawRealtime(const Studio& studio, const RenderedScene& scene) {
     studio.begin(kRealtime);
-    auto fresh = studio.backend.makeField(fieldDesc(studio), {});
+    auto fresh = studio.backend.makeField(fieldDesc(studio), studio.setup.settings);
     if (!fresh) return fresh.error();
     auto filled = fillAndMeasure(studio, scene.truth, *fresh,
                                  {studio.settings.realtimeUpdates, {}, studio.settings.run.progress});
@@ -160,7 +160,7 @@ Result<FieldPicture> drawRealtime(const Studio& studio, const RenderedScene& sce
 /// Fills and draws the field without and then with its leak guard. The second run starts from the light of the first,
 /// which does not affect the converged result. Returns the field, which guides the path tracer.
 Result<Field> drawFields(const Studio& studio, RenderedScene& scene) {
-    auto field = studio.backend.makeField(fieldDesc(studio), {});
+    auto field = studio.backend.makeField(fieldDesc(studio), studio.setup.settings);
     if (!field) return field.error();
     for (const auto& [guard, piece, result, method] :
          {std::tuple(LeakGuard::none, kLeakyField, &scene.leakyField, &RenderedView::leaky),
@@ -263,7 +263,7 @@ std::vector<ReportPiece> reportPieces(const LoadedSetup& setup, const ReportSett
     const std::size_t cameras = reportCameras(setup, settings).size();
     const double others = double(cameras - 1) / (kOthersShrink * kOthersShrink);
     const double pixels = double(settings.width) * settings.height * (1 + others);
-    const double probes = probeCount(setup.grid);
+    const double probes = probeCount(setup);
     const double picture = 1e-6 * pixels, update = 2e-7 * probes * settings.raysPerProbe;
     const double updates = settings.run.frames.value_or(40);
     const double reference =

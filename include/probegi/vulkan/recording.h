@@ -122,6 +122,11 @@ public:
     /// volume, too far), outOfMemory (the first call compiles the pass).
     Result<void> recordScroll(VkCommandBuffer commands, int volume, glm::ivec3 cells);
 
+    /// Scrolls the volumes that track a camera, as Field::followCamera, and uploads its position for the shaders that
+    /// read the field. Includes barriers before and after. Errors: those of recordScroll() and recordSettings(),
+    /// invalidArgument too where the position is not finite.
+    Result<void> recordFollowCamera(VkCommandBuffer commands, glm::vec3 camera);
+
     /// One update with the library's rays: trace, shade with the lighting and last frame's field, blend. Begins and
     /// ends with a full barrier, so reads of the volume in the same queue need none. Errors: outOfMemory (the first
     /// call allocates the ray data buffer).

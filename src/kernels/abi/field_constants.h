@@ -16,6 +16,15 @@ struct ProbeStatus {
     uint placement;  // kernels/volume/probe_offset.h
 };
 
+// How the volumes answer together (kernels/lookup/volume_blend.h).
+struct VolumeBlending {
+    vec3 camera;              // where the viewer stands, metres, in the world
+    uint tracking;            // bit i: volumes[i] answers around the camera
+    vec3 outsideRadiance;     // W sr^-1 m^-2, where no volume is
+    int outsideFades;         // 0: there the nearest probes answer
+    int order[kMostVolumes];  // of the volumes, densest first
+};
+
 struct FieldConstants {
     int volumeCount;
     int guard;             // its row in kernels/guards/list.h
@@ -27,6 +36,7 @@ struct FieldConstants {
     vec2 irradianceTexelSize;  // of the atlas, in texture coordinates
     vec2 visibilityTexelSize;
     Volume volumes[kMostVolumes];
+    VolumeBlending blending;
 };
 
 KERNELS_END
@@ -34,6 +44,9 @@ KERNELS_END
 #ifdef __cplusplus
 namespace probegi::kernels {
 static_assert(offsetof(FieldConstants, tiles) == 24 && offsetof(FieldConstants, volumes) == 48);
+static_assert(offsetof(VolumeBlending, outsideRadiance) == 16 && offsetof(VolumeBlending, order) == 32 &&
+              sizeof(VolumeBlending) == 32 + 4 * kMostVolumes);
+static_assert(kMostVolumes <= 32, "VolumeBlending::tracking has a bit for each");
 }  // namespace probegi::kernels
 #endif
 

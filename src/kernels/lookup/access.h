@@ -23,6 +23,8 @@
 //     // says of the probe. 1 where there is none.
 //     Real givenVisibility(Access access, int corner)
 //     void countFallback(Access access)                      // called by a look-up whose cage has too little weight
+//
+// A look-up in several volumes asks a few more: volume_blend.h.
 #ifndef PROBEGI_KERNELS_ACCESS_H
 #define PROBEGI_KERNELS_ACCESS_H
 

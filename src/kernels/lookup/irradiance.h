@@ -1,5 +1,5 @@
 // The whole look-up in one volume: cage, weights, gather, and the neighbours where the cage has too little weight.
-// A guard that brings a storage and a gather of its own (masks) branches off in irradianceIn(), before the cage.
+// A guard that brings a storage and a gather of its own (masks) branches off in answerIn(), before the cage.
 #ifndef PROBEGI_KERNELS_IRRADIANCE_H
 #define PROBEGI_KERNELS_IRRADIANCE_H
 
@@ -8,8 +8,14 @@
 
 KERNELS_BEGIN
 
-// E of the cage's neighbours, W m^-2; black only where all of them stand in walls or are new. `at`: irradiancePoint().
-LOOKUP_FN vec3 neighboursIrradiance(IN(Access) access, IN(Volume) v, IN(Cage) cage, OF_ACCESS(MapPoint) at) {
+// What probes say of a point.
+struct VolumeAnswer {
+    vec3 irradiance;  // E, W m^-2
+    float weight;     // of the probes behind it; 0: none of them may be used, and the answer is black
+};
+
+// The answer of the cage's neighbours; black only where all of them stand in walls or are new. `at`: irradiancePoint().
+LOOKUP_FN VolumeAnswer neighboursAnswer(IN(Access) access, IN(Volume) v, IN(Cage) cage, OF_ACCESS(MapPoint) at) {
     vec3 sum = vec3(0.0f);
     float weightSum = 0.0f;
     for (int i = 0; i < kNeighbours; ++i) {
@@ -27,7 +33,10 @@ LOOKUP_FN vec3 neighboursIrradiance(IN(Access) access, IN(Volume) v, IN(Cage) ca
             weight * (vec3(decodeIrradiance(stored.x), decodeIrradiance(stored.y), decodeIrradiance(stored.z)) * kPi);
         weightSum += weight;
     }
-    return weightSum > 0.0f ? sum / weightSum : vec3(0.0f);
+    VolumeAnswer answer;
+    answer.irradiance = weightSum > 0.0f ? sum / weightSum : vec3(0.0f);
+    answer.weight = weightSum;
+    return answer;
 }
 
 // Whether the cage's weights are enough for an answer. The paper asks no one else, unless all of the cage is new.
@@ -35,21 +44,32 @@ KERNEL_FN bool enoughWeight(float weightSum, int rules) {
     return rules == kRulesPaper ? weightSum > 0.0f : weightSum >= kDoubtful;
 }
 
-// E in W m^-2 at a point of a surface that faces `normal`, seen from `toViewer` (both unit; zero stands for the normal,
+// The answer at a point of a surface that faces `normal`, seen from `toViewer` (both unit; zero stands for the normal,
 // where nobody looks), all in the world. Outside the volume its nearest point answers.
-LOOKUP_FN vec3 irradianceIn(IN(Access) access, IN(Volume) v, vec3 point, vec3 normal, vec3 toViewer) {
+LOOKUP_FN VolumeAnswer answerIn(IN(Access) access, IN(Volume) v, vec3 point, vec3 normal, vec3 toViewer) {
     const Cage cage = cageAround(v, point, normal, toViewer, access.selfShadowBias, access.rules);
     const CageWeights w = weighCage(access, v, cage);
     const OF_ACCESS(MapPoint) at = irradiancePoint(access, normal);
     const CageLight light = gatherLight(access, w, at);
+    VolumeAnswer answer;
+    answer.weight = w.weightSum;
     if (enoughWeight(w.weightSum, access.rules)) {
         const float inverse = 1.0f / w.weightSum;
-        return vec3(irradianceAtSurface(w, light.root.x, light.rise.x, inverse, access.rules),
-                    irradianceAtSurface(w, light.root.y, light.rise.y, inverse, access.rules),
-                    irradianceAtSurface(w, light.root.z, light.rise.z, inverse, access.rules));
+        answer.irradiance = vec3(irradianceAtSurface(w, light.root.x, light.rise.x, inverse, access.rules),
+                                 irradianceAtSurface(w, light.root.y, light.rise.y, inverse, access.rules),
+                                 irradianceAtSurface(w, light.root.z, light.rise.z, inverse, access.rules));
+        return answer;
     }
     countFallback(access);
-    return completedByNeighbours(light.root, w.weightSum, neighboursIrradiance(access, v, cage, at));
+    const VolumeAnswer neighbours = neighboursAnswer(access, v, cage, at);
+    answer.irradiance = completedByNeighbours(light.root, w.weightSum, neighbours.irradiance);
+    answer.weight += neighbours.weight;
+    return answer;
+}
+
+// E of one volume, W m^-2.
+LOOKUP_FN vec3 irradianceIn(IN(Access) access, IN(Volume) v, vec3 point, vec3 normal, vec3 toViewer) {
+    return answerIn(access, v, point, normal, toViewer).irradiance;
 }
 
 KERNELS_END

@@ -5,6 +5,7 @@
 #include "core/sentence.h"
 #include "field/guard_number.h"
 #include "field/probe_emitters.h"
+#include "field/volume_access.h"
 #include "kernels/lookup/probe_query.h"
 #include "kernels/probe/solid_probe.h"
 #include "vulkan/device/errors.h"
@@ -59,6 +60,7 @@ FieldPasses::FieldPasses(const Device& device, const FieldDesc& desc)
       m_desc(desc),
       m_layout(checkedLayout(desc)),
       m_volumes(makeVolumes(desc)),
+      m_byDensity(volumesByDensity(desc)),
       m_constants(device.impl(), "field constants", sizeof(kernels::FieldConstants),
                   vk::BufferUsageFlagBits::eUniformBuffer | vk::BufferUsageFlagBits::eTransferDst),
       m_states(device.impl(), "probe states", sizeof(std::uint32_t) + m_layout.probes * sizeof(kernels::ProbeStatus),
@@ -110,9 +112,21 @@ kernels::FieldConstants FieldPasses::constants(const FieldSettings& settings) co
         .tiles = m_tiles,
         .irradianceTexelSize = texelSize(m_irradiance),
         .visibilityTexelSize = texelSize(m_visibility),
-        .volumes = {}};
+        .volumes = {},
+        .blending = blending(settings)};
     std::copy(m_volumes.begin(), m_volumes.end(), c.volumes);
     return c;
+}
+
+kernels::VolumeBlending FieldPasses::blending(const FieldSettings& settings) const {
+    const VolumeOrder order = volumeOrder(m_desc, settings, m_byDensity);
+    kernels::VolumeBlending b{.camera = order.camera,
+                              .tracking = order.tracking,
+                              .outsideRadiance = order.outsideRadiance,
+                              .outsideFades = order.outsideFades ? 1 : 0,
+                              .order = {}};
+    std::copy(m_byDensity.begin(), m_byDensity.end(), b.order);
+    return b;
 }
 
 void FieldPasses::writeSet() {

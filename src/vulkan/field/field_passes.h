@@ -92,6 +92,7 @@ public:
 
 private:
     kernels::FieldConstants constants(const FieldSettings& settings) const;
+    kernels::VolumeBlending blending(const FieldSettings& settings) const;
     void writeSet();
     void makeRayBuffers(int looks);
     void beginUpdate(const Recorder& recorder, const UpdateFrame& frame, int looks, Profiler* profiler);
@@ -113,6 +114,7 @@ private:
     FieldDesc m_desc;
     FieldLayout m_layout;
     std::vector<kernels::Volume> m_volumes;
+    std::vector<int> m_byDensity;
     kernels::PoolTiles m_tiles;
     Image m_irradiance, m_visibility;
     Buffer m_constants;                     // FieldConstants

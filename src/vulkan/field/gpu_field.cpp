@@ -67,6 +67,16 @@ Result<void> GpuField::recordScroll(VkCommandBuffer commands, int volume, glm::i
     });
 }
 
+Result<void> GpuField::recordFollowCamera(VkCommandBuffer commands, glm::vec3 camera) {
+    const auto cells = m_impl->books().cellsAfter(camera);
+    if (!cells) return cells.error();
+    for (std::size_t i = 0; i < cells->size(); ++i)
+        if ((*cells)[i] != glm::ivec3(0))
+            if (auto scrolled = recordScroll(commands, int(i), (*cells)[i]); !scrolled) return scrolled;
+    m_impl->books().settings.camera = camera;
+    return recordSettings(commands);
+}
+
 Result<void> GpuField::recordUpdate(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,
                                     Profiler* profiler) {
     return m_impl->recorded("recording an update", [&] {

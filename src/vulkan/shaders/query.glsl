@@ -123,7 +123,26 @@ void countFallback(Access access) {
 #endif
 }
 
-#include "kernels/lookup/irradiance.h"
+int volumeCount(Access access) {
+    return probegiField.volumeCount;
+}
+Volume volumeOfRank(Access access, int rank) {
+    return probegiField.volumes[probegiField.blending.order[rank]];
+}
+bool rankTracksCamera(Access access, int rank) {
+    return (probegiField.blending.tracking >> uint(probegiField.blending.order[rank]) & 1u) != 0u;
+}
+vec3 cameraPosition(Access access) {
+    return probegiField.blending.camera;
+}
+bool outsideFades(Access access) {
+    return probegiField.blending.outsideFades != 0;
+}
+vec3 outsideRadiance(Access access) {
+    return probegiField.blending.outsideRadiance;
+}
+
+#include "kernels/lookup/volume_blend.h"
 
 // Mean and mean square of the distance that a probe stores for a direction, as fractions of the farthest.
 vec2 probegiMoments(int slot, vec3 direction) {
@@ -133,18 +152,25 @@ vec2 probegiMoments(int slot, vec3 direction) {
     return moments;
 }
 
-// The volume used at a point: the first that contains it, otherwise the nearest.
+// The densest of the volumes that contain a point, otherwise the nearest.
 int probegiVolumeAt(vec3 point) {
-    if (probegiField.volumeCount == 1) return 0;
+    const Access access = probegiAccess();
     VolumeChoice choice = noVolume();
-    for (int i = 0; i < probegiField.volumeCount; ++i) choice = chooseVolume(choice, probegiField.volumes[i], i, point);
+    for (int i = 0; i < probegiField.volumeCount; ++i)
+        choice = chooseVolume(choice, volumeOfRank(access, i), probegiField.blending.order[i], point);
     return choice.volume;
 }
 
+// How far the volumes cover a point, 0..1: FieldControl::coverage().
+float probegiCoverage(vec3 point) {
+    return coverageAt(probegiAccess(), point);
+}
+
 // Irradiance E in W m^-2 at a point of a surface with this normal, seen from the direction `viewer` (both unit vectors;
-// without a viewer pass zero, which stands for the normal). Outside all volumes, the nearest cell is used.
+// without a viewer pass zero, which stands for the normal). Volumes blend where they overlap; outside of all of them
+// the nearest cell is used, or what FieldSettings::outside says.
 vec3 probegiIrradiance(vec3 point, vec3 normal, vec3 viewer) {
-    return irradianceIn(probegiAccess(), probegiField.volumes[probegiVolumeAt(point)], point, normal, viewer);
+    return blendedIrradiance(probegiAccess(), point, normal, viewer);
 }
 
 #endif

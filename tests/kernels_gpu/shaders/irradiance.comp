@@ -14,6 +14,10 @@ void evaluate(INOUT(Lane) lane) {
     const vec3 point = toWorldDirection(v, cage.position - v.origin) + v.origin;
     const vec3 normal = toWorldDirection(v, cage.normal);
     giveVec3(lane, irradianceIn(accessTo(rules, guard, walls), v, point, normal, vec3(0.0f)), 5e-3f);
-    giveVec3(lane, neighboursIrradiance(accessTo(kRulesMeasured, guard, walls), v, cage, normal), 1e-3f);
+    const VolumeAnswer neighbours = neighboursAnswer(accessTo(kRulesMeasured, guard, walls), v, cage, normal);
+    giveVec3(lane, neighbours.irradiance, 1e-3f);
+    give(lane, neighbours.weight, 1e-3f);
+    const VolumeAnswer answer = answerIn(accessTo(rules, guard, walls), v, point, normal, vec3(0.0f));
+    give(lane, answer.weight, 5e-3f);
     giveBits(lane, enoughWeight(0.0004f, rules) ? 1u : 0u);
 }

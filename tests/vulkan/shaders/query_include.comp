@@ -1,4 +1,5 @@
-// An engine's own shader with the installed include: irradiance at points, with a set and bindings of its choice.
+// An engine's own shader with the installed include: irradiance at points, with a set and bindings of its choice. A
+// question without a normal asks for the coverage.
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define PROBEGI_SET 1
@@ -23,5 +24,7 @@ layout(push_constant) uniform Push {
 void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
-    answers[i] = probegiIrradiance(questions[i].position, questions[i].normal, questions[i].toViewer);
+    answers[i] = questions[i].normal == vec3(0)
+                     ? vec3(probegiCoverage(questions[i].position), float(probegiVolumeAt(questions[i].position)), 0)
+                     : probegiIrradiance(questions[i].position, questions[i].normal, questions[i].toViewer);
 }

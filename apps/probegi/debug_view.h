@@ -1,0 +1,31 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+
+#include "probegi/field.h"
+#include "probegi/image.h"
+#include "probegi/scene.h"
+
+namespace probegi::tool {
+
+/// A picture of what a field does at the surfaces that a camera sees: --debug NAME. A new one is a row of debugViews().
+struct DebugView {
+    const char* name;
+    const char* help;
+    bool needsLight;                                     ///< the probes must have been updated
+    glm::vec3 (*colour)(const Field&, glm::vec3 point);  ///< display values, 0..1
+};
+
+std::span<const DebugView> debugViews();
+
+/// The view of a name; null: there is none.
+const DebugView* findDebugView(const std::string& name);
+
+/// Draws a view, with some shading so that shapes can be told; linear values, of which a PNG shows `colour`. Sky is
+/// black. Errors: outOfMemory, and those of the tracer.
+Result<HdrImage> drawDebugView(const DebugView& view, const Field& field, const Tracer& tracer,
+                               const PlacedCamera& camera, int width, int height);
+
+}  // namespace probegi::tool
