@@ -6,6 +6,7 @@
 #include "backend.h"
 #include "console/parse.h"
 #include "console/terminal.h"
+#include "events.h"
 #include "markdown.h"
 #include "motion.h"
 #include "probegi/builtin_scenes.h"
@@ -18,7 +19,7 @@ using namespace probegi::accuracy;
 
 struct Options {
     std::string page;
-    std::string only;  ///< a scene, "leak" or "surfaces"; empty: all
+    std::string only;  ///< a scene, "leak", "surfaces", "motion" or "events"; empty: all
     std::string scenesFolder = "../shared/scenes";
     int threads = 0;
     int samplesPerPixel = 256;
@@ -162,6 +163,11 @@ Result<void> measure(const Options& options) {
         if (!table) return table.error();
         tables += *table;
     }
+    if (wanted("events")) {
+        const auto rows = measureEvents(*context);
+        if (!rows) return rows.error();
+        tables += eventTable(*rows);
+    }
     if (!options.page.empty() && options.only.empty()) return replaceBetweenMarkers(options.page, tables);
     fmt::print("{}", tables);
     return {};
@@ -174,8 +180,8 @@ int run(int argc, char** argv) {
     app.add_option("-o,--output", options.page, "page whose measured part is replaced (default: print)")
         ->type_name("FILE");
     app.add_option("--only", options.only,
-                   "print the tables of one scene, the leak, the surfaces or motion, and write nothing")
-        ->type_name("cornell|two-rooms|dark-room|sponza|leak|surfaces|motion");
+                   "print the tables of one scene, the leak, the surfaces, motion or events, and write nothing")
+        ->type_name("cornell|two-rooms|dark-room|sponza|leak|surfaces|motion|events");
     app.add_option("--scenes", options.scenesFolder, "folder of the real scenes (default: PROBEGI_SCENES)")
         ->capture_default_str();
     app.add_option("--threads", options.threads, "worker threads; 0: all")->check(tool::inRange(0, 1024));

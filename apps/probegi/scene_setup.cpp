@@ -64,14 +64,14 @@ Result<Sky> parseSky(const std::string& text, const ReadLimits& limits) {
     return sky;
 }
 
-Result<Lighting> makeLighting(const SceneOptions& options, const Scene& scene, const ScenePose& pose) {
-    Lighting lighting;
+std::vector<PlacedLight> placedLights(const SceneOptions& options, const Scene& scene, const ScenePose& pose) {
+    std::vector<PlacedLight> lights;
     for (const PlacedLight& light : pose.lights) {
         const bool replaced = light.type == LightType::directional ? !options.suns.empty() : !options.points.empty();
-        if (!replaced && positive(light.intensity)) lighting.lights.push_back(light);
+        if (!replaced && positive(light.intensity)) lights.push_back(light);
     }
     const auto add = [&](const Result<PlacedLight>& light) {
-        if (light && positive(light->intensity)) lighting.lights.push_back(*light);
+        if (light && positive(light->intensity)) lights.push_back(*light);
     };
     for (const std::string& sun : options.suns) add(parseSun(sun));
     for (const std::string& point : options.points)
@@ -79,7 +79,11 @@ Result<Lighting> makeLighting(const SceneOptions& options, const Scene& scene, c
             light.position -= scene.origin;
             return light;
         }));
-    lighting.sky = scene.sky;
+    return lights;
+}
+
+Result<Lighting> makeLighting(const SceneOptions& options, const Scene& scene, const ScenePose& pose) {
+    Lighting lighting{placedLights(options, scene, pose), scene.sky};
     if (!options.sky.empty()) {
         auto sky = parseSky(options.sky, options.limits);
         if (!sky) return sky.error();
@@ -239,6 +243,16 @@ Result<LoadedSetup> loadSetup(const SceneOptions& options) {
         setup.warnings.push_back(std::move(warning));
     }
     return setup;
+}
+
+Result<void> moveSetup(LoadedSetup& setup, const SceneOptions& options, float seconds) {
+    ScenePose pose = poseAt(*setup.scene, seconds);
+    auto camera = makeCamera(options, pose, setup.scene->origin);
+    if (!camera) return camera.error();
+    setup.lighting.lights = placedLights(options, *setup.scene, pose);
+    setup.camera = std::move(*camera);
+    setup.pose = std::move(pose);
+    return {};
 }
 
 }  // namespace probegi::tool

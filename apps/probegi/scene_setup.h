@@ -70,4 +70,8 @@ bool hasLight(const Scene& scene, const ScenePose& pose, const Lighting& lightin
 /// picture would be black.
 Result<LoadedSetup> loadSetup(const SceneOptions& options);
 
+/// Takes pose, lights and camera to another moment of the scene's animations, seconds; sky and grid stay.
+/// Errors: invalidArgument (the camera looks at its own place).
+Result<void> moveSetup(LoadedSetup& setup, const SceneOptions& options, float seconds);
+
 }  // namespace probegi::tool

@@ -8,6 +8,7 @@
 
 #include "probegi/export.h"
 #include "probegi/result.h"
+#include "probegi/scene.h"
 #include "probegi/shared/field_data.h"
 #include "probegi/volume.h"
 
@@ -97,6 +98,10 @@ public:
 
     /// Announces a change to the scene (section 4.3). Durations count updates, whichever probes these update.
     void notify(FieldEvent event) noexcept;
+    /// The same for the probes inside a box, metres; an update treats all others as if nothing had been announced. Up
+    /// to eight boxes act at a time; further ones are joined with those that grow least by it. A box that is inside
+    /// out holds no probe; one with a NaN counts for all probes. findEdits() finds boxes.
+    void notify(FieldEvent event, const Bounds& region) noexcept;
 
     /// The probes of the coming updates, in the order of their ray data.
     std::span<const ProbeTask> tasks() const noexcept;
