@@ -32,8 +32,8 @@ Example: probegi render builtin:house -o truth.png --method reference --time 30
 Example: probegi render builtin:door -o door%03d.png --animate 0:4:0.1 --camera second
 Example: probegi render builtin:moving -o moving.mp4 --animate 0:4:0.04 --camera tracking
 
---animate fills the probes for the first picture as for a single one; all pictures get one exposure, chosen from five of
-them. With --method reference, --spp and --time are for each picture.)";
+--animate fills the probes by 100 real-time updates (--frames) before the first picture; all pictures get one exposure,
+chosen from five of them. With --method reference, --spp and --time are for each picture.)";
 
 Result<std::optional<Field>> makeField(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
                                        const RenderOptions& options, RenderStats& stats) {
@@ -78,6 +78,8 @@ void warnAboutUnusedOptions(const RenderOptions& options) {
     if (!probes && (options.run.frames || options.run.tolerance))
         printWarning("--frames and --tolerance act on --method ddgi and leaky, and on --guide on, only");
     if (!probes && options.rules == FieldRules::paper) printWarning("--rules acts on --method ddgi and leaky only");
+    if (!options.animate.empty() && options.run.tolerance)
+        printWarning("--tolerance acts on single pictures only; --frames says how --animate fills the probes");
     if ((options.animate.empty() || !probes) && (options.updatesPerFrame || !options.events))
         printWarning("--updates-per-frame and --events act on the probes of --animate only");
 }

@@ -78,6 +78,9 @@ enum class FieldEvent : std::uint8_t {
     smallLightChange,   ///< irradiance hysteresis -15 % for 4 frames
     largeLightChange,   ///< irradiance hysteresis -50 % for 10 frames
     largeObjectChange,  ///< irradiance hysteresis -50 % for 10 frames, visibility hysteresis -50 % for 7 frames
+    /// Not in the paper, for things on their way: irradiance hysteresis -15 % for 4 frames, visibility hysteresis -50 %
+    /// for 7 frames. With fixed rays, a larger reduction again and again is noise, not speed (docs/accuracy.md).
+    smallObjectChange,
 };
 
 /// The state of a field from frame to frame, the same on every backend: what the coming update is about (probes, rays),

@@ -33,8 +33,9 @@ struct SceneEdit {
 };
 
 /// The edits that lead from one state of a scene to another. Small ones are left to the field, which follows by
-/// itself: changes of a light below a quarter of it (Listing 3 counts these as significant; from 0.8 on they are
-/// large), and ways of an object below a tenth of its size.
+/// itself: changes of a light below a quarter of it (what Listing 3 counts as significant; from 0.8 on they are large),
+/// ways of an object below a tenth of its size (from a quarter on they are large), and objects smaller than 0.3 times
+/// their mean distance to what they see, since they hide little of it.
 /// Lights that differ are compared in the order of the lists. A light that moves by half its mean distance to what it
 /// lights, a sun or a spot that turns by 0.3 rad (a sun: an hour), count as another one.
 /// The region holds all that the light or the object, before and after, sees directly or by one bounce: it shadows and
@@ -49,8 +50,8 @@ PROBEGI_API Result<std::vector<SceneEdit>> findEdits(const Scene& scene, const S
 /// Announces edits to a field.
 PROBEGI_API void notify(FieldControl& control, std::span<const SceneEdit> edits) noexcept;
 
-/// Finds edits from frame to frame. A slow motion is an edit whenever enough of it has come together, wherever it
-/// began. Move-only.
+/// Finds edits from frame to frame. An object that moves slowly is an edit whenever enough of its way has come
+/// together; lights are compared with the frame before. Move-only.
 class PROBEGI_API SceneWatch {
 public:
     /// The scene must be valid and outlive the watch.

@@ -48,6 +48,10 @@ void HysteresisSchedule::FramesLeft::add(FieldEvent event) noexcept {
             large = kLargeFrames;
             visibility = kVisibilityFrames;
             break;
+        case FieldEvent::smallObjectChange:
+            smallLight = kSmallLightFrames;
+            visibility = kVisibilityFrames;
+            break;
     }
 }
 
@@ -105,9 +109,9 @@ EventRegions HysteresisSchedule::regions(const FieldSettings& settings, bool fir
     if (firstFrame) return regions;  // keeps nothing anyway
     for (std::size_t i = 0; i < m_count; ++i) {
         const Region& r = m_regions[i];
-        const float visibility = r.left.visibilityFactor();
+        const float irradiance = r.left.irradianceFactor(), visibility = r.left.visibilityFactor();
         regions.boxes[std::size_t(regions.count++)] = {r.box.lower, r.box.upper,
-                                                       settings.hysteresis * r.left.irradianceFactor(),
+                                                       irradiance < 1 ? settings.hysteresis * irradiance : 1,
                                                        visibility < 1 ? settings.visibilityHysteresis * visibility : 1};
     }
     return regions;

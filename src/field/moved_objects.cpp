@@ -58,15 +58,16 @@ float diagonalOf(const Corners& corners) {
 MovedObject compared(const Scene& scene, const Instance* before, const Instance* after) {
     if (!before || !after) {
         const Instance& there = before ? *before : *after;
-        return {there.node, 1.0f, boxAround(cornersOf(scene, there))};
+        const Corners corners = cornersOf(scene, there);
+        return {there.node, 1.0f, diagonalOf(corners), boxAround(corners)};
     }
     const Corners then = cornersOf(scene, *before), now = cornersOf(scene, *after);
-    MovedObject moved{after->node, 1.0f, joined(boxAround(then), boxAround(now))};
+    MovedObject moved{after->node, 1.0f, std::max(diagonalOf(then), diagonalOf(now)),
+                      joined(boxAround(then), boxAround(now))};
     if (before->mesh != after->mesh) return moved;
     float way = 0;
     for (std::size_t i = 0; i < then.size(); ++i) way = std::max(way, glm::distance(then[i], now[i]));
-    const float size = std::max(diagonalOf(then), diagonalOf(now));
-    moved.size = size > 0 ? std::min(way / size, 1.0f) : 0.0f;
+    moved.size = moved.extent > 0 ? std::min(way / moved.extent, 1.0f) : 0.0f;
     return moved;
 }
 

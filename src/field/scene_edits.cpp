@@ -14,12 +14,19 @@ namespace {
 // Listing 3's thresholds, here on the share of a light that is another one.
 constexpr float kSignificantChange = 0.25f;
 constexpr float kNewDistribution = 0.8f;
-constexpr float kLargeWay = 0.1f;  // of an object, over its size
+// Ways of an object over its size.
+constexpr float kSmallWay = 0.1f, kLargeWay = 0.25f;
+// Size of an object over its mean distance to what it sees: a smaller one hides too little of the scene.
+constexpr float kLeastExtent = 0.3f;
 // Objects whose reach is looked for one by one; further ones share a box.
 constexpr std::size_t kMostObjects = 16;
 
 FieldEvent lightEvent(float change) {
     return change >= kNewDistribution ? FieldEvent::largeLightChange : FieldEvent::smallLightChange;
+}
+
+FieldEvent objectEvent(float way) {
+    return way >= kLargeWay ? FieldEvent::largeObjectChange : FieldEvent::smallObjectChange;
 }
 
 Bounds joined(const Bounds& a, const Bounds& b) {
@@ -95,8 +102,9 @@ std::vector<SceneEdit> editsOf(const Changes& changes, const std::vector<EditRea
         if (const SceneEdit edit = lightEdit(changes, pair, reaches, next); edit.size >= kSignificantChange)
             edits.push_back(edit);
     for (const MovedObject& object : changes.objects) {
-        edits.push_back(
-            {EditKind::object, object.node, object.size, FieldEvent::largeObjectChange, false, reaches[next].box});
+        const EditReach& reach = reaches[next];
+        if (object.extent >= kLeastExtent * reach.meanDistance)
+            edits.push_back({EditKind::object, object.node, object.size, objectEvent(object.size), false, reach.box});
         next = std::min(next + 1, reaches.size() - 1);
     }
     return edits;
@@ -107,7 +115,7 @@ std::vector<SceneEdit> editsOf(const Changes& changes, const std::vector<EditRea
 Result<std::vector<SceneEdit>> findEdits(const Scene& scene, const ScenePose& poseBefore, const Lighting& before,
                                          const ScenePose& poseAfter, const Lighting& after, const Tracer& tracer) try {
     const Changes changes{before.lights, after.lights, changedLights(before.lights, after.lights),
-                          movedObjects(scene, poseBefore, poseAfter, kLargeWay), skyChange(before.sky, after.sky)};
+                          movedObjects(scene, poseBefore, poseAfter, kSmallWay), skyChange(before.sky, after.sky)};
     const std::vector<EditSource> sources = changes.sources();
     if (sources.empty()) return editsOf(changes, {});
     const auto reaches = findReaches(tracer, sources);
@@ -133,19 +141,17 @@ struct SceneWatch::Impl {
     void settle(const std::vector<SceneEdit>& edits, const ScenePose& now, const Lighting& lightsNow);
 };
 
-// Whatever was told of is from now on as it is; objects that have moved too little go on being compared with where
-// they were.
+// Objects that have moved too little go on being compared with where they were; everything else is from now on as it
+// is. Lights, too: the field's fixed rays follow what is slow, and events would only add noise.
 void SceneWatch::Impl::settle(const std::vector<SceneEdit>& edits, const ScenePose& now, const Lighting& lightsNow) {
-    bool lightsTold = lightsNow.lights.size() != lighting.lights.size();
     for (const SceneEdit& edit : edits) {
-        lightsTold = lightsTold || edit.kind == EditKind::light;
         if (edit.kind == EditKind::sky) lighting.sky = lightsNow.sky;
         if (edit.kind != EditKind::object) continue;
         std::erase_if(pose.instances, [&](const Instance& instance) { return instance.node == edit.index; });
         for (const Instance& instance : now.instances)
             if (instance.node == edit.index) pose.instances.push_back(instance);
     }
-    if (lightsTold) lighting.lights = lightsNow.lights;
+    lighting.lights = lightsNow.lights;
 }
 
 SceneWatch::SceneWatch(const Scene& scene, const ScenePose& pose, const Lighting& lighting)

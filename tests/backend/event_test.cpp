@@ -77,15 +77,16 @@ TEST_P(BackendEvents, aBoxAroundAllProbesIsNoBox) {
     for (const FieldRules rules : {FieldRules::measured, FieldRules::paper}) {
         const FieldSetup setup = setupOf(rules);
         const Bounds all{glm::vec3(-1e6f), glm::vec3(1e6f)};
-        for (const FieldEvent event :
-             {FieldEvent::smallLightChange, FieldEvent::largeLightChange, FieldEvent::largeObjectChange}) {
+        for (const FieldEvent event : {FieldEvent::smallLightChange, FieldEvent::largeLightChange,
+                                       FieldEvent::largeObjectChange, FieldEvent::smallObjectChange}) {
             const FieldSnapshot boxed = afterAJump(setup, [&](FieldControl& control) { control.notify(event, all); });
             const FieldSnapshot plain = afterAJump(setup, [&](FieldControl& control) { control.notify(event); });
             const FieldSnapshot untold = afterAJump(setup, [](FieldControl&) {});
             EXPECT_EQ(boxed.irradiance, plain.irradiance) << int(event);
             EXPECT_EQ(boxed.visibility, plain.visibility) << int(event);
             EXPECT_NE(boxed.irradiance, untold.irradiance) << int(event);
-            EXPECT_EQ(boxed.visibility == untold.visibility, event != FieldEvent::largeObjectChange);
+            const bool object = event == FieldEvent::largeObjectChange || event == FieldEvent::smallObjectChange;
+            EXPECT_NE(boxed.visibility == untold.visibility, object);
         }
     }
 }

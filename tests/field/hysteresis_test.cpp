@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace probegi {
@@ -36,7 +37,7 @@ TEST(Hysteresis, eventsFollowSection43) {
     };
     for (const Case& c :
          {Case{FieldEvent::smallLightChange, 0.85f, 4, 0}, Case{FieldEvent::largeLightChange, 0.5f, 10, 0},
-          Case{FieldEvent::largeObjectChange, 0.5f, 10, 7}}) {
+          Case{FieldEvent::largeObjectChange, 0.5f, 10, 7}, Case{FieldEvent::smallObjectChange, 0.85f, 4, 7}}) {
         const auto frames = framesAfter(c.event, 12);
         for (int i = 0; i < 12; ++i) {
             EXPECT_FLOAT_EQ(frames[i].first, i < c.irradianceFrames ? c.irradianceFactor : 1.0f) << i;
@@ -65,12 +66,12 @@ TEST(Hysteresis, boxesFollowSection43) {
     };
     for (const Case& c :
          {Case{FieldEvent::smallLightChange, 0.85f, 4, 0}, Case{FieldEvent::largeLightChange, 0.5f, 10, 0},
-          Case{FieldEvent::largeObjectChange, 0.5f, 10, 7}}) {
+          Case{FieldEvent::largeObjectChange, 0.5f, 10, 7}, Case{FieldEvent::smallObjectChange, 0.85f, 4, 7}}) {
         HysteresisSchedule schedule;
         schedule.notify(c.event, cube(0, 1));
         for (int i = 0; i < 12; ++i) {
             const EventRegions regions = schedule.regions(kSettings, false);
-            ASSERT_EQ(regions.count, i < c.irradianceFrames ? 1 : 0) << i;
+            ASSERT_EQ(regions.count, i < std::max(c.irradianceFrames, c.visibilityFrames) ? 1 : 0) << i;
             const kernels::EventLimit inside = regions.limitAt(glm::vec3(0.5f)),
                                       outside = regions.limitAt(glm::vec3(2));
             EXPECT_FLOAT_EQ(inside.irradianceKept, i < c.irradianceFrames ? 0.9f * c.irradianceFactor : 1.0f) << i;

@@ -193,6 +193,9 @@ TEST_F(SceneEdits, objects) {
     EXPECT_EQ(far[0].kind, EditKind::object);
     EXPECT_EQ(far[0].index, before.door().node);
     EXPECT_EQ(far[0].event, FieldEvent::largeObjectChange);
+    const auto near = moved({0.4f, 0, 0});
+    ASSERT_EQ(near.size(), 1u);
+    EXPECT_EQ(near[0].event, FieldEvent::smallObjectChange);
     EXPECT_FALSE(far[0].everywhere);
     EXPECT_NEAR(far[0].size, 2 / glm::length(glm::vec3(0.04f, 2.19f, 1.09f)), 0.01f);
     EXPECT_TRUE(holds(far[0].region, firstRoom)) << "which the door does not hide any more";

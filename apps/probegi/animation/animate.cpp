@@ -24,8 +24,12 @@ constexpr int kExposureWidth = 160;
 constexpr int kExposureUpdates = 16;  // before each, so that the light has followed
 constexpr int kExposureSamples = 16;
 
+// Updates before the first picture. Not converge(): the updates after it begin a new average, noisy at first, and the
+// second picture would show that.
+constexpr int kFillUpdates = 100;
+
 // Guesses for the progress bar, in updates.
-constexpr double kFillCost = 60, kPictureCost = 6;
+constexpr double kPictureCost = 6;
 
 double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -157,7 +161,8 @@ std::string animationJson(const Animation& animation, const FieldRun& fill, doub
 
 void planBar(const Animation& animation) {
     const bool chooses = animation.sink.isShown() && animation.scene.setup().automaticExposure;
-    std::vector<double> guesses{kFillCost, chooses ? kExposureMoments * (kExposureUpdates + 1.0) : 0.0};
+    std::vector<double> guesses{double(*animation.options.run.frames),
+                                chooses ? kExposureMoments * (kExposureUpdates + 1.0) : 0.0};
     guesses.insert(guesses.end(), std::size_t(animation.times.count()), animation.updatesPerFrame() + kPictureCost);
     animation.bar.plan(std::move(guesses));
 }
@@ -222,6 +227,7 @@ Result<void> renderAnimation(const RenderOptions& given) {
     const auto times = parseFrameTimes(options.animate);
     if (!times) return times.error();
     options.scene.timeOfScene = float(times->from);
+    options.run.frames = options.run.frames.value_or(kFillUpdates);
     auto sink = PictureSink::create(options, *times);
     if (!sink) return sink.error();
     WholeBar bar;

@@ -13,8 +13,8 @@ KERNEL_CONST int kMostEventRegions = 8;
 struct EventRegion {
     vec3 lower;            // metres, of the world's axes
     vec3 upper;            // included
-    float irradianceKept;  // largest share of the old irradiance that a probe inside keeps, below 1
-    float visibilityKept;  // the same for distances; 1: no limit
+    float irradianceKept;  // largest share of the old irradiance that a probe inside keeps; 1: no limit
+    float visibilityKept;  // the same for distances
 };
 
 // What the boxes leave a probe: the smallest shares of those it is in. Nothing says 1.
