@@ -161,20 +161,6 @@ Overhang overhang(const VolumeDesc& grid, glm::vec3 lower, glm::vec3 upper) {
 // Up to half a cell beyond the outermost probes, the field is as accurate as between probes.
 constexpr float kHarmlessCells = 0.5f;
 
-std::vector<std::string> gridWarnings(const LoadedSetup& setup) {
-    const Overhang surfaces = overhang(setup.grid, setup.pose.bounds.lower, setup.pose.bounds.upper);
-    if (surfaces.cells <= kHarmlessCells) return {};  // then a camera sees no surface outside
-    std::vector<std::string> sentences{
-        fmt::format("the scene reaches {:.4g} m beyond its probe grid: surfaces there get the light "
-                    "of the nearest probes; cover all of it with --probes",
-                    surfaces.metres)};
-    const Overhang camera = overhang(setup.grid, setup.camera.position, setup.camera.position);
-    if (camera.cells > kHarmlessCells)
-        sentences.push_back(
-            fmt::format("the camera stands {:.4g} m outside the probe grid, where no light is known", camera.metres));
-    return sentences;
-}
-
 }  // namespace
 
 Result<LoadedScene> readScene(const SceneOptions& options) {
@@ -182,6 +168,20 @@ Result<LoadedScene> readScene(const SceneOptions& options) {
     auto scene = makeBuiltinScene(std::string_view(options.scene).substr(kBuiltinPrefix.size()), options.builtin);
     if (!scene) return scene.error();
     return LoadedScene{std::move(*scene), {}, {}};
+}
+
+std::vector<std::string> gridWarnings(const VolumeDesc& grid, const Bounds& scene, const PlacedCamera& placed) {
+    const Overhang surfaces = overhang(grid, scene.lower, scene.upper);
+    if (surfaces.cells <= kHarmlessCells) return {};  // then a camera sees no surface outside
+    std::vector<std::string> sentences{
+        fmt::format("the scene reaches {:.4g} m beyond its probe grid: surfaces there get the light "
+                    "of the nearest probes; cover all of it with --probes",
+                    surfaces.metres)};
+    const Overhang camera = overhang(grid, placed.position, placed.position);
+    if (camera.cells > kHarmlessCells)
+        sentences.push_back(
+            fmt::format("the camera stands {:.4g} m outside the probe grid, where no light is known", camera.metres));
+    return sentences;
 }
 
 // Traced on the CPU whatever the backend, so that the grid is the same on all backends.
@@ -238,7 +238,7 @@ Result<LoadedSetup> loadSetup(const SceneOptions& options) {
     const auto grid = makeGrid(options, *setup.scene, setup.pose);
     if (!grid) return grid.error();
     setup.grid = *grid;
-    for (std::string& warning : gridWarnings(setup)) {
+    for (std::string& warning : gridWarnings(setup.grid, setup.pose.bounds, setup.camera)) {
         printWarning(warning);
         setup.warnings.push_back(std::move(warning));
     }

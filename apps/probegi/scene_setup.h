@@ -60,6 +60,9 @@ Result<LoadedScene> readScene(const SceneOptions& options);
 Result<VolumeDesc> automaticGrid(const Scene& scene, const ScenePose& pose, const PlacementDesc& placement = {},
                                  int threads = 0);
 
+/// Sentences where the scene or the camera is outside the grid.
+std::vector<std::string> gridWarnings(const VolumeDesc& grid, const Bounds& scene, const PlacedCamera& camera);
+
 /// The exposure to show a picture at: the setup's, or one chosen for the picture.
 float shownExposure(const LoadedSetup& setup, const HdrImage& color);
 

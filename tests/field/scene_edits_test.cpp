@@ -32,7 +32,10 @@ struct State {
 
 class SceneEdits : public testing::Test {
 protected:
-    SceneEdits() { before.lighting.lights = {lamp({-2.5f, 1.4f, 0}), sun()}; }
+    SceneEdits() {
+        before.lighting.lights = {lamp({-2.5f, 1.4f, 0}), sun()};
+        after = before;
+    }
 
     static PlacedLight lamp(glm::vec3 position, float intensity = 10) {
         PlacedLight light;
@@ -60,7 +63,7 @@ protected:
     const Context context = *Context::create({.threads = 1});
     const Scene scene = makeBuiltinScene("door").value();
     State before{scene, 0};
-    State after = before;
+    State after{scene, 0};
     // The rooms are 5 x 2.8 x 5 m each on both sides of x = 0; the first one has a window in its front wall, at z 2.5.
     const glm::vec3 firstRoom{-2.5f, 1, -2}, secondRoom{2.5f, 1, -2}, outside{8, 1, 8};
 };

@@ -24,6 +24,9 @@ constexpr int kExposureWidth = 160;
 constexpr int kExposureUpdates = 16;  // before each, so that the light has followed
 constexpr int kExposureSamples = 16;
 
+// Moments at which it is checked that the scene is inside the grid.
+constexpr int kGridMoments = 16;
+
 // Updates before the first picture. Not converge(): the updates after it begin a new average, noisy at first, and the
 // second picture would show that.
 constexpr int kFillUpdates = 100;
@@ -182,6 +185,18 @@ void warnWhereNothingMoves(const Scene& scene, const FrameTimes& times) {
                         first, last));
 }
 
+// The grid was laid over the scene as it is at first.
+void warnWhereItLeavesTheGrid(const LoadedSetup& setup, const FrameTimes& times) {
+    if (!gridWarnings(setup.grid, setup.pose.bounds, setup.camera).empty()) return;  // told already
+    for (int i = 1; i <= kGridMoments && !setup.scene->animations.empty(); ++i) {
+        const double seconds = times.at((times.count() - 1) * i / kGridMoments);
+        const ScenePose pose = poseAt(*setup.scene, float(seconds));
+        const auto sentences = gridWarnings(setup.grid, pose.bounds, setup.camera);
+        if (sentences.empty()) continue;
+        return printWarning(fmt::format("at second {:.4g} {}", seconds, sentences.front()));
+    }
+}
+
 Result<void> run(Animation& animation) {
     const RenderOptions& options = animation.options;
     planBar(animation);
@@ -240,6 +255,7 @@ Result<void> renderAnimation(const RenderOptions& given) {
     if (!setup) return setup.error();
     if (auto apart = sink->keepApartFrom(setup->files); !apart) return apart;
     warnWhereNothingMoves(*setup->scene, *times);
+    if (hasProbes(options)) warnWhereItLeavesTheGrid(*setup, *times);
     auto scene = MovingScene::open(**backend, *setup, options);
     if (!scene) return scene.error();
     auto renderer = (*backend)->makeRenderer();
