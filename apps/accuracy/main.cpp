@@ -6,6 +6,7 @@
 #include "backend.h"
 #include "console/parse.h"
 #include "console/terminal.h"
+#include "events.h"
 #include "flight.h"
 #include "markdown.h"
 #include "motion.h"
@@ -252,6 +253,11 @@ Result<void> measure(const Options& options) {
         if (!table) return table.error();
         tables += *table;
     }
+    if (wanted("events")) {
+        const auto rows = measureEvents(*context);
+        if (!rows) return rows.error();
+        tables += eventTable(*rows);
+    }
     if (!options.page.empty() && options.only.empty()) return replaceBetweenMarkers(options.page, tables);
     fmt::print("{}", tables);
     return {};
@@ -264,9 +270,9 @@ int run(int argc, char** argv) {
     app.add_option("-o,--output", options.page, "page whose measured part is replaced (default: print)")
         ->type_name("FILE");
     app.add_option("--only", options.only,
-                   "print the tables of one scene, the leak, the surfaces, placement, motion, a flight or what is "
-                   "outside of volumes, and write nothing")
-        ->type_name("cornell|two-rooms|dark-room|sponza|leak|surfaces|placement|motion|flight|outside");
+                   "print the tables of one scene, the leak, the surfaces, placement, motion, events, a flight or what "
+                   "is outside of volumes, and write nothing")
+        ->type_name("cornell|two-rooms|dark-room|sponza|leak|surfaces|placement|motion|events|flight|outside");
     app.add_option("--scene", options.scene, "of placement: this scene only");
     app.add_flag("--leaky", options.leaky, "placement: without a visibility test");
     app.add_option("--scenes", options.scenesFolder, "folder of the real scenes (default: PROBEGI_SCENES)")

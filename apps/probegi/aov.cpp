@@ -63,12 +63,6 @@ void warnWhereNearlyBlack(const std::string& path, const HdrImage& layer, const 
                     std::floor(100 * share), path, toneMap.exposure));
 }
 
-Result<void> writeLight(const std::string& path, const HdrImage& layer, const ToneMap& toneMap) {
-    auto written = writeImage(path, layer, toneMap);
-    if (written) warnWhereNearlyBlack(path, layer, toneMap);
-    return written;
-}
-
 HdrImage asWhiteSurface(HdrImage irradiance) {
     for (glm::vec3& e : irradiance.pixels) e *= std::numbers::inv_pi_v<float>;
     return irradiance;
@@ -80,13 +74,21 @@ bool isLight(Aov aov) {
     return aov == Aov::color || aov == Aov::direct || aov == Aov::indirect || aov == Aov::irradiance;
 }
 
-Result<void> writeAov(const std::string& path, const Picture& picture, Aov aov, const ToneMap& toneMap) {
+HdrImage shownLayer(const Picture& picture, Aov aov) {
     const HdrImage& layer = layerOf(picture, aov);
-    if (path.ends_with(".exr")) return writeImage(path, layer);
-    if (aov == Aov::normal) return writeImage(path, displayNormals(layer));
-    if (aov == Aov::depth) return writeImage(path, displayDepth(layer));
-    if (aov == Aov::irradiance) return writeLight(path, asWhiteSurface(layer), toneMap);
-    return isLight(aov) ? writeLight(path, layer, toneMap) : writeImage(path, layer);
+    if (aov == Aov::normal) return displayNormals(layer);
+    if (aov == Aov::depth) return displayDepth(layer);
+    return aov == Aov::irradiance ? asWhiteSurface(layer) : layer;
+}
+
+Result<void> writeAov(const std::string& path, const Picture& picture, Aov aov, const ToneMap& toneMap,
+                      bool warnWhereBlack) {
+    if (path.ends_with(".exr")) return writeImage(path, layerOf(picture, aov));
+    const HdrImage shown = shownLayer(picture, aov);
+    if (!isLight(aov)) return writeImage(path, shown);
+    auto written = writeImage(path, shown, toneMap);
+    if (written && warnWhereBlack) warnWhereNearlyBlack(path, shown, toneMap);
+    return written;
 }
 
 }  // namespace probegi::tool

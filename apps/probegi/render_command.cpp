@@ -5,45 +5,18 @@
 #include <memory>
 #include <optional>
 
-#include "aov.h"
-#include "backend.h"
+#include "animation/animate.h"
+#include "animation/video_file.h"
 #include "commands.h"
 #include "console/output.h"
 #include "console/parse.h"
 #include "debug_view.h"
-#include "probegi/reference.h"
+#include "render_options.h"
 #include "render_stats.h"
-#include "scene_setup.h"
 
 namespace probegi::tool {
 
 namespace {
-
-enum class Method { none, leaky, ddgi, reference };
-
-constexpr int kDefaultReferenceSamples = 64;
-constexpr float kPaperVisibilityExponent = 50;
-
-struct RenderOptions {
-    SceneOptions scene;
-    BackendOptions backend;
-    std::string output, stats;
-    Method method = Method::ddgi;
-    FieldRules rules = FieldRules::measured;
-    Aov aov = Aov::color;
-    std::string size = "960x540";
-    int antialias = 2;
-    bool diffuseOnly = false;
-    bool filmic = false;
-    std::uint64_t seed = 1;
-    int rays = FieldDesc{}.raysPerProbe;
-    FieldRunOptions run;
-    std::optional<int> samplesPerPixel;
-    std::optional<double> seconds;
-    bool guide = false;
-    bool relocation = false, probeStates = false;
-    std::string debug;  ///< name of a DebugView; empty: a picture
-};
 
 const char* const kFooter =
     R"(Light is in linear Rec.709: radiance in W/sr/m2, irradiance in W/m2; lengths in metres; +Y is up.
@@ -58,40 +31,29 @@ Example: probegi render sponza.glb -o sponza.exr --camera nave --sky 0.3,0.4,0.6
 Example: probegi render builtin:house -o house.png --backend vulkan
 Example: probegi render sponza.glb -o near.png --camera nave --sky 0.3,0.4,0.6 --cascades 4
 Example: probegi render sponza.glb -o seams.png --camera nave --sky 0.3,0.4,0.6 --cascades 4 --debug volumes
-Example: probegi render builtin:house -o truth.png --method reference --time 30)";
+Example: probegi render builtin:house -o truth.png --method reference --time 30
+Example: probegi render builtin:door -o door%03d.png --animate 0:4:0.1 --camera second
+Example: probegi render builtin:moving -o moving.mp4 --animate 0:4:0.04 --camera tracking
 
-PictureDesc pictureDesc(const RenderOptions& options, const LoadedSetup& setup) {
-    const PictureSize size = *parseSize(options.size);
-    return {setup.camera, size.width, size.height, options.antialias, options.diffuseOnly};
-}
+--animate fills the probes by 100 real-time updates (--frames) before the first picture; all pictures get one exposure,
+chosen from five of them. With --method reference, --spp and --time are for each picture.)";
 
 Result<std::optional<Field>> makeField(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
                                        const RenderOptions& options, RenderStats& stats) {
-    if (options.method == Method::none || (options.method == Method::reference && !options.guide)) return std::nullopt;
-    FieldDesc desc;
-    desc.volumes = setup.volumes;
-    desc.raysPerProbe = options.rays;
-    desc.seed = options.seed;
-    desc.rules = options.rules;
-    desc.relocation = options.relocation;
-    desc.probeStates = options.probeStates;
-    FieldSettings settings = setup.settings;
-    if (options.rules == FieldRules::paper) settings.visibilityExponent = kPaperVisibilityExponent;
-    settings.guard = options.method == Method::leaky ? LeakGuard::none : LeakGuard::moments;
-    auto field = backend.makeField(desc, settings);
-    if (!field) return field.error();
-    stats.probes = probeCount(desc);
-    stats.raysPerProbe = desc.raysPerProbe;
-    if (!options.debug.empty() && !findDebugView(options.debug)->needsLight) return std::move(*field);
-    auto run = runField(*field, tracer, setup.lighting, options.run);
+    auto field = makeEmptyField(backend, setup, options);
+    if (!field || !*field) return field;
+    stats.probes = probeCount((*field)->desc());
+    stats.raysPerProbe = (*field)->desc().raysPerProbe;
+    if (!options.debug.empty() && !findDebugView(options.debug)->needsLight) return field;
+    auto run = runField(**field, tracer, setup.lighting, options.run);
     if (!run) return run.error();
     stats.run = std::move(*run);
-    stats.active = int(field->control().tasks().size());
-    return std::move(*field);
+    stats.active = int((*field)->control().tasks().size());
+    return field;
 }
 
-Result<Picture> renderWithField(const Context&, const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
-                                const RenderOptions& options, RenderStats& stats) {
+Result<Picture> drawWithField(const Context&, const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
+                              const RenderOptions& options, RenderStats& stats) {
     const auto field = makeField(backend, tracer, setup, options, stats);
     if (!field) return field.error();
     const auto renderer = backend.makeRenderer();
@@ -103,19 +65,11 @@ Result<Picture> renderWithField(const Context&, const Backend& backend, const Tr
     return std::move(rendered->picture);
 }
 
-Result<Picture> renderReference(const Context& context, const Backend& backend, const Tracer& tracer,
-                                const LoadedSetup& setup, const RenderOptions& options, RenderStats& stats) {
+Result<Picture> drawReference(const Context& context, const Backend& backend, const Tracer& tracer,
+                              const LoadedSetup& setup, const RenderOptions& options, RenderStats& stats) {
     const auto field = makeField(backend, tracer, setup, options, stats);
     if (!field) return field.error();
-    const auto pathTracer = PathTracer::create(context, *setup.scene, setup.pose, tracer, setup.lighting);
-    if (!pathTracer) return pathTracer.error();
-    ReferenceDesc desc;
-    desc.picture = pictureDesc(options, setup);
-    desc.seconds = options.seconds.value_or(0);
-    desc.samplesPerPixel = options.samplesPerPixel.value_or(options.seconds ? 0 : kDefaultReferenceSamples);
-    desc.seed = options.seed;
-    desc.guide = *field ? &**field : nullptr;
-    auto rendered = pathTracer->render(desc);
+    auto rendered = renderReference(context, tracer, setup, options, *field ? &**field : nullptr);
     if (!rendered) return rendered.error();
     stats.pictureMs = rendered->seconds * 1000;
     return std::move(rendered->picture);
@@ -136,12 +90,16 @@ void warnAboutUnusedOptions(const RenderOptions& options) {
     const bool reference = options.method == Method::reference;
     if (!reference && (options.samplesPerPixel || options.seconds || options.guide))
         printWarning("--spp, --time and --guide act on --method reference only");
-    const bool probes = options.method != Method::none && (!reference || options.guide);
+    const bool probes = hasProbes(options);
     if (!probes && (options.run.frames || options.run.tolerance))
         printWarning("--frames and --tolerance act on --method ddgi and leaky, and on --guide on, only");
     if (!probes && (options.relocation || options.probeStates))
         printWarning("--relocation and --probe-states act on --method ddgi and leaky only");
     if (!probes && options.rules == FieldRules::paper) printWarning("--rules acts on --method ddgi and leaky only");
+    if (!options.animate.empty() && options.run.tolerance)
+        printWarning("--tolerance acts on single pictures only; --frames says how --animate fills the probes");
+    if ((options.animate.empty() || !probes) && (options.updatesPerFrame || !options.events))
+        printWarning("--updates-per-frame and --events act on the probes of --animate only");
 }
 
 void checkOptions(const CLI::App& command, const RenderOptions& options) {
@@ -153,11 +111,17 @@ void checkOptions(const CLI::App& command, const RenderOptions& options) {
 }
 
 Result<void> render(const RenderOptions& options) {
+    warnAboutUnusedOptions(options);
+    if (!options.animate.empty()) return renderAnimation(options);
     Outputs outputs;
+    if (isVideo(options.output))
+        return fail(ErrorCode::unsupported,
+                    fmt::format("-o '{}' is a video, which --animate A:B:STEP makes; one picture "
+                                "must end in {}",
+                                options.output, fmt::join(pictureExtensions(), " or ")));
     if (auto claimed = outputs.claim("-o", options.output, pictureExtensions()); !claimed) return claimed;
     if (!options.stats.empty())
         if (auto claimed = outputs.claim("--stats", options.stats); !claimed) return claimed;
-    warnAboutUnusedOptions(options);
     const auto context = makeContext(options.scene.threads);
     if (!context) return context.error();
     const auto backend = openBackend(*context, options.backend);
@@ -173,7 +137,7 @@ Result<void> render(const RenderOptions& options) {
         if (auto drawn = renderDebugView(**backend, **tracer, *setup, options, stats); !drawn) return drawn;
         return options.stats.empty() ? Result<void>() : writeText(options.stats, statsJson(stats));
     }
-    const auto draw = options.method == Method::reference ? renderReference : renderWithField;
+    const auto draw = options.method == Method::reference ? drawReference : drawWithField;
     const auto picture = draw(*context, **backend, **tracer, *setup, options, stats);
     if (!picture) return picture.error();
     const ToneMap toneMap{shownExposure(*setup, picture->color), options.filmic};
@@ -193,7 +157,12 @@ void addPictureOptions(CLI::App& command, RenderOptions& options) {
     static const std::map<std::string, Aov> kAovs{
         {"color", Aov::color}, {"irradiance", Aov::irradiance}, {"normal", Aov::normal},    {"albedo", Aov::albedo},
         {"depth", Aov::depth}, {"direct", Aov::direct},         {"indirect", Aov::indirect}};
-    command.add_option("-o,--output", options.output, "the picture: .png or .exr")->type_name("FILE")->required();
+    command
+        .add_option(
+            "-o,--output", options.output,
+            "the picture: .png or .exr; with --animate the pictures, e.g. frame%04d.png, or a video (.mp4, .webm)")
+        ->type_name("FILE")
+        ->required();
     command.add_option("--size", options.size, "pixels, each side 1 to 16384")
         ->type_name("WxH")
         ->check(parsedBy(parseSize))
@@ -219,6 +188,32 @@ void addPictureOptions(CLI::App& command, RenderOptions& options) {
     command.add_flag("--diffuse-only", options.diffuseOnly, "all materials as matt surfaces of their base colour");
     command.add_option("--stats", options.stats, "write probes, frames, times in ms and memory as JSON")
         ->type_name("FILE");
+}
+
+void addAnimationOptions(CLI::App& command, RenderOptions& options) {
+    constexpr const char* kGroup = "Animation";
+    auto* animate = command
+                        .add_option("--animate", options.animate,
+                                    "pictures of the moving scene from second A to second B, one every STEP seconds; "
+                                    "the probes keep their light from picture to picture, as in an engine")
+                        ->type_name("A:B:STEP")
+                        ->check(parsedBy(parseFrameTimes))
+                        ->group(kGroup);
+    animate->excludes(command.get_option("--time-of-scene"));
+    command
+        .add_option("--updates-per-frame", options.updatesPerFrame,
+                    fmt::format("real-time updates of the probes from one picture to the next, 1 to 1000 (default {})",
+                                kDefaultUpdatesPerFrame))
+        ->type_name("N")
+        ->check(inRange(1, 1000))
+        ->group(kGroup);
+    static const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
+    command
+        .add_option("--events", options.events,
+                    "tell the probes near large changes to follow faster for some updates (default on)")
+        ->type_name("on|off")
+        ->transform(oneOf(kOnOff))
+        ->group(kGroup);
 }
 
 void addMethodOptions(CLI::App& command, RenderOptions& options) {
@@ -282,6 +277,7 @@ void addRenderCommand(CLI::App& app, int& exitCode) {
     addMethodOptions(*command, *options);
     addBackendOptions(*command, options->backend);
     addSceneOptions(*command, options->scene);
+    addAnimationOptions(*command, *options);
     command->footer(kFooter);
     command->callback([options, command, &exitCode] {
         checkOptions(*command, *options);

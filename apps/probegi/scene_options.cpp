@@ -14,7 +14,8 @@ void addBuiltinOptions(CLI::App& command, BuiltinParams& params) {
             ->capture_default_str()
             ->group("Parameters of built-in scenes");
     };
-    add("--wall", params.wallThickness, 0.02, 0.30, "wall thickness in metres, 0.02 to 0.3 (two-rooms, dark-room)");
+    add("--wall", params.wallThickness, 0.02, 0.30,
+        "wall thickness in metres, 0.02 to 0.3 (two-rooms, dark-room, door)");
     add("--albedo", params.albedo, 0.0, 0.99, "albedo of the walls, 0 to 0.99 (furnace, sphere)");
     add("--emission", params.emission, 1e-6, 1e6, "radiance of the walls in W/sr/m2 (furnace)");
     add("--power", params.power, 1e-6, 1e9, "power of the lamp in W (sphere)");

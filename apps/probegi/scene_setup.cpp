@@ -64,14 +64,14 @@ Result<Sky> parseSky(const std::string& text, const ReadLimits& limits) {
     return sky;
 }
 
-Result<Lighting> makeLighting(const SceneOptions& options, const Scene& scene, const ScenePose& pose) {
-    Lighting lighting;
+std::vector<PlacedLight> placedLights(const SceneOptions& options, const Scene& scene, const ScenePose& pose) {
+    std::vector<PlacedLight> lights;
     for (const PlacedLight& light : pose.lights) {
         const bool replaced = light.type == LightType::directional ? !options.suns.empty() : !options.points.empty();
-        if (!replaced && positive(light.intensity)) lighting.lights.push_back(light);
+        if (!replaced && positive(light.intensity)) lights.push_back(light);
     }
     const auto add = [&](const Result<PlacedLight>& light) {
-        if (light && positive(light->intensity)) lighting.lights.push_back(*light);
+        if (light && positive(light->intensity)) lights.push_back(*light);
     };
     for (const std::string& sun : options.suns) add(parseSun(sun));
     for (const std::string& point : options.points)
@@ -79,7 +79,11 @@ Result<Lighting> makeLighting(const SceneOptions& options, const Scene& scene, c
             light.position -= scene.origin;
             return light;
         }));
-    lighting.sky = scene.sky;
+    return lights;
+}
+
+Result<Lighting> makeLighting(const SceneOptions& options, const Scene& scene, const ScenePose& pose) {
+    Lighting lighting{placedLights(options, scene, pose), scene.sky};
     if (!options.sky.empty()) {
         auto sky = parseSky(options.sky, options.limits);
         if (!sky) return sky.error();
@@ -181,9 +185,18 @@ Overhang overhang(const VolumeDesc& grid, glm::vec3 lower, glm::vec3 upper) {
 // Up to half a cell beyond the outermost probes, the field is as accurate as between probes.
 constexpr float kHarmlessCells = 0.5f;
 
-std::vector<std::string> gridWarnings(const LoadedSetup& setup) {
+}  // namespace
+
+Result<LoadedScene> readScene(const SceneOptions& options) {
+    if (options.scene.rfind(kBuiltinPrefix, 0) != 0) return loadScene(options.scene, options.limits);
+    auto scene = makeBuiltinScene(std::string_view(options.scene).substr(kBuiltinPrefix.size()), options.builtin);
+    if (!scene) return scene.error();
+    return LoadedScene{std::move(*scene), {}, {}};
+}
+
+std::vector<std::string> gridWarnings(const LoadedSetup& setup, const Bounds& scene) {
     const VolumeDesc box = aroundAll(setup.volumes);
-    const Overhang surfaces = overhang(box, setup.pose.bounds.lower, setup.pose.bounds.upper);
+    const Overhang surfaces = overhang(box, scene.lower, scene.upper);
     if (surfaces.cells <= kHarmlessCells) return {};  // then a camera sees no surface outside
     std::vector<std::string> sentences{
         fmt::format("the scene reaches {:.4g} m beyond its probe grid: surfaces there get the light of {}; cover all "
@@ -195,15 +208,6 @@ std::vector<std::string> gridWarnings(const LoadedSetup& setup) {
         sentences.push_back(
             fmt::format("the camera stands {:.4g} m outside the probe grid, where no light is known", camera.metres));
     return sentences;
-}
-
-}  // namespace
-
-Result<LoadedScene> readScene(const SceneOptions& options) {
-    if (options.scene.rfind(kBuiltinPrefix, 0) != 0) return loadScene(options.scene, options.limits);
-    auto scene = makeBuiltinScene(std::string_view(options.scene).substr(kBuiltinPrefix.size()), options.builtin);
-    if (!scene) return scene.error();
-    return LoadedScene{std::move(*scene), {}, {}};
 }
 
 // Traced on the CPU whatever the backend, so that the grid is the same on all backends.
@@ -268,11 +272,21 @@ Result<LoadedSetup> loadSetup(const SceneOptions& options) {
     setup.volumes = std::move(*volumes);
     setup.grid = setup.volumes.front();
     setup.settings = fieldSettings(options.volumes, setup.volumes, setup.camera.position);
-    for (std::string& warning : gridWarnings(setup)) {
+    for (std::string& warning : gridWarnings(setup, setup.pose.bounds)) {
         printWarning(warning);
         setup.warnings.push_back(std::move(warning));
     }
     return setup;
+}
+
+Result<void> moveSetup(LoadedSetup& setup, const SceneOptions& options, float seconds) {
+    ScenePose pose = poseAt(*setup.scene, seconds);
+    auto camera = makeCamera(options, pose, setup.scene->origin);
+    if (!camera) return camera.error();
+    setup.lighting.lights = placedLights(options, *setup.scene, pose);
+    setup.camera = std::move(*camera);
+    setup.pose = std::move(pose);
+    return {};
 }
 
 }  // namespace probegi::tool

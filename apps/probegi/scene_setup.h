@@ -66,6 +66,8 @@ Result<VolumeDesc> automaticGrid(const Scene& scene, const ScenePose& pose, cons
 
 /// Probes of all volumes.
 int probeCount(const LoadedSetup& setup);
+/// Sentences where the scene or the camera is outside the grid.
+std::vector<std::string> gridWarnings(const LoadedSetup& setup, const Bounds& scene);
 
 /// The exposure to show a picture at: the setup's, or one chosen for the picture.
 float shownExposure(const LoadedSetup& setup, const HdrImage& color);
@@ -76,5 +78,9 @@ bool hasLight(const Scene& scene, const ScenePose& pose, const Lighting& lightin
 /// readScene(), then applies the options. Warnings are also printed. A scene without any light is an error, since its
 /// picture would be black.
 Result<LoadedSetup> loadSetup(const SceneOptions& options);
+
+/// Takes pose, lights and camera to another moment of the scene's animations, seconds; sky and grid stay.
+/// Errors: invalidArgument (the camera looks at its own place).
+Result<void> moveSetup(LoadedSetup& setup, const SceneOptions& options, float seconds);
 
 }  // namespace probegi::tool

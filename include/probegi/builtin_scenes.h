@@ -19,7 +19,7 @@ PROBEGI_API std::span<const BuiltinScene> builtinScenes();
 
 /// Parameters of some built-in scenes; the others ignore them.
 struct BuiltinParams {
-    float wallThickness = 0.10f;  ///< metres, 0.02..0.30 (two-rooms, dark-room)
+    float wallThickness = 0.10f;  ///< metres, 0.02..0.30 (two-rooms, dark-room, door)
     float albedo = 0.5f;          ///< 0..0.99 (furnace, sphere)
     float emission = 1.0f;        ///< W sr^-1 m^-2, > 0 (furnace)
     float power = 100.0f;         ///< W (sphere)

@@ -113,6 +113,9 @@ enum class FieldEvent : std::uint8_t {
     smallLightChange,   ///< irradiance hysteresis -15 % for 4 frames
     largeLightChange,   ///< irradiance hysteresis -50 % for 10 frames
     largeObjectChange,  ///< irradiance hysteresis -50 % for 10 frames, visibility hysteresis -50 % for 7 frames
+    /// Not in the paper, for things on their way: irradiance hysteresis -15 % for 4 frames, visibility hysteresis -50 %
+    /// for 7 frames. With fixed rays, a larger reduction again and again is noise, not speed (docs/accuracy.md).
+    smallObjectChange,
 };
 
 /// The state of a field from frame to frame, the same on every backend: what the coming update is about (probes, rays),
@@ -155,6 +158,10 @@ public:
 
     /// Announces a change to the scene (section 4.3). Durations count updates, whichever probes these update.
     void notify(FieldEvent event) noexcept;
+    /// The same for the probes inside a box, metres; an update treats all others as if nothing had been announced. Up
+    /// to eight boxes act at a time; further ones are joined with those that grow least by it. A box that is inside
+    /// out holds no probe; one with a NaN counts for all probes. findEdits() finds boxes.
+    void notify(FieldEvent event, const Bounds& region) noexcept;
 
     /// The probes of the coming updates, in the order of their ray data: those that are active. With relocation or
     /// states they change when probes are placed, fall asleep or wake: ask before each update.

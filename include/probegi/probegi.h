@@ -4,6 +4,7 @@
 #include "probegi/backend.h"
 #include "probegi/builtin_scenes.h"
 #include "probegi/context.h"
+#include "probegi/edits.h"
 #include "probegi/field.h"
 #include "probegi/image.h"
 #include "probegi/io.h"

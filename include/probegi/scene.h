@@ -205,6 +205,9 @@ PROBEGI_API Result<void> validate(const Scene& scene);
 /// Resolves hierarchy and animation at a time in seconds (clamped to the animation's span). The scene must be valid.
 PROBEGI_API ScenePose poseAt(const Scene& scene, float seconds = 0.0f);
 
+/// World bounds of each instance that the scene's animations move, for FieldControl::setMoving.
+PROBEGI_API std::vector<Bounds> movingBounds(const Scene& scene, const ScenePose& pose);
+
 /// Triangles over all instances of the pose.
 PROBEGI_API std::size_t triangleCount(const Scene& scene, const ScenePose& pose);
 

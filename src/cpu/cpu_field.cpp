@@ -70,7 +70,8 @@ void CpuField::blend(const UpdateFrame& frame, std::span<const RayDatum> rayData
                      std::span<const FixedRayDatum> fixedRays, std::span<const kernels::EmitterLight> emitters) {
     makeBlendWeights(m_context, m_desc, frame.settings.visibilityExponent, frame.directions, m_weights);
     BlendFrame how{frame.tasks, frame.hysteresis, frame.linear, frame.ditherSeed};
-    if (frame.windows) how.steps = m_filter.chooseWindows(m_context, frame, m_volumes, rayData, fixedRays, m_storage);
+    how.steps = frame.windows ? m_filter.chooseWindows(m_context, frame, m_volumes, rayData, fixedRays, m_storage)
+                              : m_filter.keepLessAtEvents(frame, m_storage);
     blendProbes(m_context, m_desc, frame.volumes, frame.settings, m_weights, rayData, how, m_storage, emitters);
     if (frame.windows)
         m_filter.advance(m_context, frame, m_volumes, m_storage);

@@ -42,6 +42,14 @@ kernels::ProbeSight sightOf(std::span<const RayDatum> ownRays) {
     return kernels::sightOf(sum);
 }
 
+// Announced changes near a probe shorten its windows.
+void limitWindows(const kernels::EventLimit& limit, kernels::ProbeFilter& filter, FrameHysteresis& kept) {
+    filter.window = kernels::limitedWindow(filter.window, limit.irradianceKept);
+    filter.visibilityWindow = kernels::limitedWindow(filter.visibilityWindow, limit.visibilityKept);
+    kept.irradiance = kernels::limitedKept(kept.irradiance, limit.irradianceKept);
+    kept.visibility = kernels::limitedKept(kept.visibility, limit.visibilityKept);
+}
+
 }  // namespace
 
 void TemporalFilter::measureLag(const Context& context, const UpdateFrame& frame,
@@ -81,9 +89,25 @@ std::span<ProbeStep> TemporalFilter::chooseWindows(const Context& context, const
             filter.visibilityWindow =
                 kernels::nextVisibilityWindow(filter.visibilityWindow, around.distance, frame.longestVisibilityWindow);
             m_steps[i] = {{kernels::keptBy(filter.window), kernels::keptBy(filter.visibilityWindow)}, lag, 0.0f};
+            if (!frame.events.empty()) limitWindows(frame.events.limitAt(task.origin), filter, m_steps[i].hysteresis);
             packed.words[5] = kernels::packWindows(filter.window, filter.visibilityWindow);
         }
     });
+    return m_steps;
+}
+
+std::span<ProbeStep> TemporalFilter::keepLessAtEvents(const UpdateFrame& frame, const FieldStorage& storage) {
+    if (frame.events.empty()) return {};
+    m_steps.resize(frame.tasks.size());
+    for (std::size_t i = 0; i < frame.tasks.size(); ++i) {
+        const ProbeTask& task = frame.tasks[i];
+        const kernels::EventLimit limit = frame.events.limitAt(task.origin);
+        const bool isNew = kernels::isNew(storage.filters[task.slot]);
+        m_steps[i] = {{isNew ? 0.0f : std::min(frame.hysteresis.irradiance, limit.irradianceKept),
+                       isNew ? 0.0f : std::min(frame.hysteresis.visibility, limit.visibilityKept)},
+                      0.0f,
+                      0.0f};
+    }
     return m_steps;
 }
 

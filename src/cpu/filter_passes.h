@@ -18,6 +18,9 @@ public:
                                        std::span<const kernels::Volume> volumes, std::span<const RayDatum> rayData,
                                        std::span<const FixedRayDatum> fixedRays, FieldStorage& storage);
 
+    /// Before a blend without windows: the steps for BlendFrame in an update with events in boxes; none in others.
+    std::span<ProbeStep> keepLessAtEvents(const UpdateFrame& frame, const FieldStorage& storage);
+
     /// After the blend: noise from the steps' changes; the fixed rays join their averages.
     void advance(const Context& context, const UpdateFrame& frame, std::span<const kernels::Volume> volumes,
                  FieldStorage& storage);

@@ -19,11 +19,6 @@ std::uint32_t seedOf(const FieldDesc& desc) {
     return kernels::hashCombine(std::uint32_t(desc.seed), std::uint32_t(desc.seed >> 32));
 }
 
-// The window whose rate is what a hysteresis lets in.
-float windowOf(float hysteresis) {
-    return 1.0f / (1.0f - hysteresis);
-}
-
 std::uint32_t ditherSeedOf(const FieldDesc& desc, int frame) {
     return kernels::hashCombine(seedOf(desc) ^ 0x6a09e667u, std::uint32_t(frame));
 }
@@ -111,6 +106,7 @@ UpdateFrame FieldControl::Impl::comingUpdate() const noexcept {
                        .taskList = taskList,
                        .directions = directions,
                        .hysteresis = events.current(settings, frame == 0),
+                       .events = events.regions(settings, frame == 0),
                        .ditherSeed = ditherSeedOf(desc, frame),
                        .raySeed = ditherSeedOf(desc, turns) ^ 0x85ebca6bu,
                        .bounces = frame > 0};
@@ -118,10 +114,11 @@ UpdateFrame FieldControl::Impl::comingUpdate() const noexcept {
     coming.linear = coming.windows = true;
     coming.fixedDirections = fixedDirections;
     // Where nothing would tell of a change, old light must fade all the same.
-    coming.longestWindow = events.irradianceEvent() || fixedDirections.empty() ? windowOf(coming.hysteresis.irradiance)
-                                                                               : kernels::kLongestWindow;
+    coming.longestWindow = events.irradianceEvent() || fixedDirections.empty()
+                               ? kernels::windowOfHysteresis(coming.hysteresis.irradiance)
+                               : kernels::kLongestWindow;
     coming.longestVisibilityWindow = events.visibilityEvent() || fixedDirections.empty()
-                                         ? windowOf(coming.hysteresis.visibility)
+                                         ? kernels::windowOfHysteresis(coming.hysteresis.visibility)
                                          : kernels::kLongestVisibilityWindow;
     return coming;
 }
@@ -129,14 +126,15 @@ UpdateFrame FieldControl::Impl::comingUpdate() const noexcept {
 UpdateFrame FieldControl::Impl::comingUpdateWithoutFixedRays() const noexcept {
     UpdateFrame coming = comingUpdate();
     coming.fixedDirections = {};
-    coming.longestWindow = windowOf(coming.hysteresis.irradiance);
-    coming.longestVisibilityWindow = windowOf(coming.hysteresis.visibility);
+    coming.longestWindow = kernels::windowOfHysteresis(coming.hysteresis.irradiance);
+    coming.longestVisibilityWindow = kernels::windowOfHysteresis(coming.hysteresis.visibility);
     return coming;
 }
 
 UpdateFrame FieldControl::Impl::comingAverage(FrameHysteresis kept) const noexcept {
     UpdateFrame coming = comingUpdate();
     coming.hysteresis = kept;
+    coming.events = {};
     coming.linear = true;
     coming.windows = false;
     coming.fixedDirections = {};
@@ -284,6 +282,9 @@ Result<std::vector<float>> FieldControl::volumeShares(glm::vec3 point) const try
 }
 void FieldControl::notify(FieldEvent event) noexcept {
     m_impl->events.notify(event);
+}
+void FieldControl::notify(FieldEvent event, const Bounds& region) noexcept {
+    m_impl->events.notify(event, region);
 }
 std::span<const ProbeTask> FieldControl::tasks() const noexcept {
     return m_impl->tasks;

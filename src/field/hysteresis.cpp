@@ -1,40 +1,128 @@
 #include "field/hysteresis.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
 
 namespace probegi {
 
 namespace {
+
 constexpr int kSmallLightFrames = 4;
 constexpr int kLargeFrames = 10;
 constexpr int kVisibilityFrames = 7;
+constexpr float kSmallLightFactor = 0.85f;
+constexpr float kLargeFactor = 0.5f;
+constexpr float kVisibilityFactor = 0.5f;
+
+bool isNumber(const Bounds& box) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::isnan(box.lower[axis]) || std::isnan(box.upper[axis])) return false;
+    return true;
+}
+
+bool isEmpty(const Bounds& box) {
+    return box.lower.x > box.upper.x || box.lower.y > box.upper.y || box.lower.z > box.upper.z;
+}
+
+Bounds joined(const Bounds& a, const Bounds& b) {
+    return {glm::min(a.lower, b.lower), glm::max(a.upper, b.upper)};
+}
+
+double volumeOf(const Bounds& box) {
+    const glm::dvec3 size = glm::dvec3(box.upper) - glm::dvec3(box.lower);
+    return size.x * size.y * size.z;
+}
+
 }  // namespace
 
-void HysteresisSchedule::notify(FieldEvent event) noexcept {
+void HysteresisSchedule::FramesLeft::add(FieldEvent event) noexcept {
     switch (event) {
         case FieldEvent::smallLightChange:
-            m_smallLight.framesLeft = kSmallLightFrames;
+            smallLight = kSmallLightFrames;
             break;
         case FieldEvent::largeLightChange:
-            m_large.framesLeft = kLargeFrames;
+            large = kLargeFrames;
             break;
         case FieldEvent::largeObjectChange:
-            m_large.framesLeft = kLargeFrames;
-            m_visibility.framesLeft = kVisibilityFrames;
+            large = kLargeFrames;
+            visibility = kVisibilityFrames;
+            break;
+        case FieldEvent::smallObjectChange:
+            smallLight = kSmallLightFrames;
+            visibility = kVisibilityFrames;
             break;
     }
 }
 
+void HysteresisSchedule::FramesLeft::join(const FramesLeft& other) noexcept {
+    smallLight = std::max(smallLight, other.smallLight);
+    large = std::max(large, other.large);
+    visibility = std::max(visibility, other.visibility);
+}
+
+void HysteresisSchedule::FramesLeft::advance() noexcept {
+    for (int* left : {&smallLight, &large, &visibility}) *left = std::max(0, *left - 1);
+}
+
+// Overlapping events: the stronger one counts.
+float HysteresisSchedule::FramesLeft::irradianceFactor() const noexcept {
+    return std::min(smallLight > 0 ? kSmallLightFactor : 1.0f, large > 0 ? kLargeFactor : 1.0f);
+}
+
+float HysteresisSchedule::FramesLeft::visibilityFactor() const noexcept {
+    return visibility > 0 ? kVisibilityFactor : 1.0f;
+}
+
+void HysteresisSchedule::notify(FieldEvent event) noexcept {
+    m_everywhere.add(event);
+}
+
+void HysteresisSchedule::notify(FieldEvent event, const Bounds& box) noexcept {
+    if (!isNumber(box)) return notify(event);
+    if (isEmpty(box)) return;
+    Region coming{box, {}};
+    coming.left.add(event);
+    const auto end = m_regions.begin() + std::ptrdiff_t(m_count);
+    const auto same = std::find_if(
+        m_regions.begin(), end, [&](const Region& r) { return r.box.lower == box.lower && r.box.upper == box.upper; });
+    if (same != end) return same->left.join(coming.left);
+    if (m_count < m_regions.size()) {
+        m_regions[m_count++] = coming;
+        return;
+    }
+    const auto growth = [&](const Region& r) { return volumeOf(joined(r.box, box)) - volumeOf(r.box); };
+    Region& nearest = *std::min_element(m_regions.begin(), end,
+                                        [&](const Region& a, const Region& b) { return growth(a) < growth(b); });
+    nearest.box = joined(nearest.box, box);
+    nearest.left.join(coming.left);
+}
+
 FrameHysteresis HysteresisSchedule::current(const FieldSettings& settings, bool firstFrame) const noexcept {
     if (firstFrame) return {};
-    const auto factor = [](const Reduction& r) { return r.framesLeft > 0 ? r.factor : 1.0f; };
-    // Overlapping events: the stronger one counts.
-    return {settings.hysteresis * std::min(factor(m_smallLight), factor(m_large)),
-            settings.visibilityHysteresis * factor(m_visibility)};
+    return {settings.hysteresis * m_everywhere.irradianceFactor(),
+            settings.visibilityHysteresis * m_everywhere.visibilityFactor()};
+}
+
+EventRegions HysteresisSchedule::regions(const FieldSettings& settings, bool firstFrame) const noexcept {
+    EventRegions regions;
+    if (firstFrame) return regions;  // keeps nothing anyway
+    for (std::size_t i = 0; i < m_count; ++i) {
+        const Region& r = m_regions[i];
+        const float irradiance = r.left.irradianceFactor(), visibility = r.left.visibilityFactor();
+        regions.boxes[std::size_t(regions.count++)] = {r.box.lower, r.box.upper,
+                                                       irradiance < 1 ? settings.hysteresis * irradiance : 1,
+                                                       visibility < 1 ? settings.visibilityHysteresis * visibility : 1};
+    }
+    return regions;
 }
 
 void HysteresisSchedule::advance() noexcept {
-    for (Reduction* r : {&m_smallLight, &m_large, &m_visibility}) r->framesLeft = std::max(0, r->framesLeft - 1);
+    m_everywhere.advance();
+    const auto end = m_regions.begin() + std::ptrdiff_t(m_count);
+    for (auto r = m_regions.begin(); r != end; ++r) r->left.advance();
+    m_count = std::size_t(std::remove_if(m_regions.begin(), end, [](const Region& r) { return r.left.over(); }) -
+                          m_regions.begin());
 }
 
 }  // namespace probegi

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <span>
+
+#include "kernels/blend/event_region.h"
 #include "probegi/control.h"
 
 namespace probegi {
@@ -10,28 +14,61 @@ struct FrameHysteresis {
     float visibility = 0;
 };
 
+/// The boxes in which an update keeps less of the old values than elsewhere.
+struct EventRegions {
+    std::array<kernels::EventRegion, kernels::kMostEventRegions> boxes{};
+    int count = 0;
+
+    bool empty() const noexcept { return count == 0; }
+    std::span<const kernels::EventRegion> all() const noexcept { return {boxes.data(), std::size_t(count)}; }
+    /// What the boxes leave a probe that stands there.
+    kernels::EventLimit limitAt(glm::vec3 position) const noexcept {
+        kernels::EventLimit limit = kernels::noEventLimit();
+        for (const kernels::EventRegion& region : all()) kernels::addEventRegion(limit, region, position);
+        return limit;
+    }
+};
+
 /// Which hysteresis the coming update uses: that of the settings, lowered for a few frames after announced changes
-/// (section 4.3: "reduce irradiance hysteresis by 15% for four frames", and so on), 0 for the first update.
+/// (section 4.3: "reduce irradiance hysteresis by 15% for four frames", and so on), 0 for the first update. Changes
+/// are announced for all probes or for those in a box.
 class HysteresisSchedule {
 public:
     void notify(FieldEvent event) noexcept;
-    /// The coming frame's values. Does not advance.
+    /// The same for the probes in a box. One without volume that is inside out holds none; one that is not a number
+    /// counts for all. Of more than kMostEventRegions boxes at a time, those are joined that grow least.
+    void notify(FieldEvent event, const Bounds& box) noexcept;
+    /// The coming frame's values, of probes outside all boxes. Does not advance.
     FrameHysteresis current(const FieldSettings& settings, bool firstFrame) const noexcept;
-    /// Whether an announced change lowers the coming frame's irradiance hysteresis.
-    bool irradianceEvent() const noexcept { return m_smallLight.framesLeft > 0 || m_large.framesLeft > 0; }
-    /// Whether one lowers its visibility hysteresis.
-    bool visibilityEvent() const noexcept { return m_visibility.framesLeft > 0; }
+    /// The coming frame's boxes.
+    EventRegions regions(const FieldSettings& settings, bool firstFrame) const noexcept;
+    /// Whether an announced change lowers the coming frame's irradiance hysteresis, outside all boxes.
+    bool irradianceEvent() const noexcept { return m_everywhere.smallLight > 0 || m_everywhere.large > 0; }
+    /// Whether one lowers its visibility hysteresis, outside all boxes.
+    bool visibilityEvent() const noexcept { return m_everywhere.visibility > 0; }
     /// Ends the frame.
     void advance() noexcept;
 
 private:
-    struct Reduction {
-        float factor;  ///< on the hysteresis
-        int framesLeft;
+    /// Frames that the reductions still last.
+    struct FramesLeft {
+        int smallLight = 0, large = 0, visibility = 0;
+
+        void add(FieldEvent event) noexcept;
+        void join(const FramesLeft& other) noexcept;
+        void advance() noexcept;
+        bool over() const noexcept { return smallLight <= 0 && large <= 0 && visibility <= 0; }
+        float irradianceFactor() const noexcept;
+        float visibilityFactor() const noexcept;
     };
-    Reduction m_smallLight{0.85f, 0};
-    Reduction m_large{0.5f, 0};
-    Reduction m_visibility{0.5f, 0};
+    struct Region {
+        Bounds box;
+        FramesLeft left;
+    };
+
+    FramesLeft m_everywhere;
+    std::array<Region, kernels::kMostEventRegions> m_regions{};
+    std::size_t m_count = 0;
 };
 
 }  // namespace probegi

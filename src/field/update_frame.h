@@ -18,8 +18,9 @@ struct UpdateFrame {
     std::uint32_t taskList = 0;                ///< differs between lists of tasks
     std::span<const glm::vec3> directions{};   ///< unit, raysPerProbe of them
     FrameHysteresis hysteresis{};
-    bool linear = false;   ///< kernels::blendLinear instead of blendEncoded
-    bool windows = false;  ///< each probe at the rate of its own window, in place of `hysteresis`; linear is true then
+    EventRegions events{};  ///< in which probes keep less than `hysteresis` or their windows say
+    bool linear = false;    ///< kernels::blendLinear instead of blendEncoded
+    bool windows = false;   ///< each probe at the rate of its own window, in place of `hysteresis`; linear is true then
     std::span<const glm::vec3> fixedDirections{};  ///< unit; of the rays that measure lag. Empty: none
     float longestWindow = 1;                       ///< updates, of irradiance
     float longestVisibilityWindow = 1;             ///< updates, of distance moments

@@ -10,4 +10,7 @@ namespace probegi {
 /// The channel must be valid. Formulas: glTF 2.0 specification, appendix C.
 glm::vec4 sampleChannel(const AnimationChannel& channel, float seconds);
 
+/// By node, whether an animation moves it or one of its parents.
+std::vector<bool> animatedNodes(const Scene& scene);
+
 }  // namespace probegi

@@ -121,6 +121,22 @@ ScenePose poseAt(const Scene& scene, float seconds) {
     return pose;
 }
 
+std::vector<bool> animatedNodes(const Scene& scene) {
+    std::vector<bool> moves(scene.nodes.size(), false);
+    for (const AnimationChannel& channel : scene.animations) moves[std::size_t(channel.node)] = true;
+    for (std::size_t i = 0; i < moves.size(); ++i)  // parents come first
+        if (scene.nodes[i].parent >= 0 && moves[std::size_t(scene.nodes[i].parent)]) moves[i] = true;
+    return moves;
+}
+
+std::vector<Bounds> movingBounds(const Scene& scene, const ScenePose& pose) {
+    const std::vector<bool> moves = animatedNodes(scene);
+    std::vector<Bounds> bounds;
+    for (const Instance& instance : pose.instances)
+        if (instance.node >= 0 && moves[std::size_t(instance.node)]) bounds.push_back(boundsOf(scene, {instance}));
+    return bounds;
+}
+
 std::size_t triangleCount(const Scene& scene, const ScenePose& pose) {
     std::size_t count = 0;
     for (const Instance& instance : pose.instances) {

@@ -5,6 +5,7 @@
 
 #include "kernels/abi/dispatch.h"
 #include "kernels/abi/gpu_scene.h"
+#include "kernels/blend/event_region.h"
 #include "kernels/blend/temporal_filter.h"
 #include "kernels/screen/pinhole.h"
 
@@ -90,6 +91,19 @@ struct FilterPush {
     float longestVisibilityWindow;
     uint ditherSeed;
     int forget;  // 1: probe_filter.comp only writes forgottenFilter()
+};
+
+// Less of the old values where changes were announced (probe_events.comp): after probe_windows.comp, or in its place
+// where there are no windows.
+struct EventPush {
+    uvec2 tasks;    // GpuTaskCounts, ProbeTask[]
+    uvec2 steps;    // GpuProbeStep[slot]
+    uvec2 filters;  // PackedProbeFilter[slot]
+    uvec2 regions;  // EventRegion[count]
+    int count;
+    int windows;                 // 1: steps and filters have windows
+    float irradianceHysteresis;  // without windows: of probes outside
+    float visibilityHysteresis;
 };
 
 // Both blends (blend_irradiance.comp, blend_visibility.comp).
@@ -251,7 +265,8 @@ static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(Ble
               sizeof(EnterPush) == 40 && sizeof(PlacementsPush) == 28 && sizeof(PlacesPush) == 88 &&
               sizeof(TracePush) == 76);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 104);
-static_assert(sizeof(TasksPush) == 24 && sizeof(FilterPush) == 76 && sizeof(GpuProbeStep) == 80);
+static_assert(sizeof(TasksPush) == 24 && sizeof(FilterPush) == 76 && sizeof(EventPush) == 48 &&
+              sizeof(EventRegion) == 32 && sizeof(GpuProbeStep) == 80);
 static_assert(sizeof(ToneMapPush) == 36 && sizeof(GpuSurface) == 76);
 }  // namespace probegi::kernels
 #endif

@@ -10,6 +10,8 @@ Result<Scene> makeFurnace(const BuiltinParams& params);
 Result<Scene> makeSphere(const BuiltinParams& params);
 Result<Scene> makeTwoRooms(const BuiltinParams& params);
 Result<Scene> makeDarkRoom(const BuiltinParams& params);
+Result<Scene> makeDoor(const BuiltinParams& params);
+Result<Scene> makeMoving(const BuiltinParams& params);
 Result<Scene> makeHouse(const BuiltinParams& params);
 Result<Scene> makeAtrium(const BuiltinParams& params);
 

@@ -25,6 +25,10 @@ constexpr std::array kEntries{
           builtin::makeTwoRooms},
     Entry{{"dark-room", "a sealed room beside a sunlit one: whatever is bright in it has leaked (wallThickness)"},
           builtin::makeDarkRoom},
+    Entry{
+        {"door", "a sunlit room and a dark one, and between them a door that opens from second 1 to 3 (wallThickness)"},
+        builtin::makeDoor},
+    Entry{{"moving", "a closed room in which a lamp, a box and a camera move for four seconds"}, builtin::makeMoving},
     Entry{{"furnace", "a closed glowing box with a known answer everywhere (albedo, emission)"}, builtin::makeFurnace},
     Entry{{"sphere", "an integrating sphere around a point light, with a known answer (albedo, power, radius)"},
           builtin::makeSphere},

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "scene/builtin/box_solid.h"
 #include "scene/builtin/builtin.h"
 #include "scene/builtin/scene_parts.h"
@@ -96,7 +98,30 @@ void furnish(Scene& scene, float side) {
     addBall(scene, yellow, {side * 1.7f, 0, 0.6f}, 0.35f);
 }
 
-Result<Scene> makeRooms(const BuiltinParams& params, const char* name, bool doorway) {
+/// What is between the rooms.
+enum class Passage { none, doorway, door };
+
+/// Of the doorway with a door, along Z.
+constexpr float kDoorFrom = -0.6f, kDoorTo = 0.5f, kDoorHeight = 2.2f;
+
+void openPassage(BoxSolid& solid, const Rooms& r, const Materials& m, Passage passage) {
+    if (passage == Passage::none) return;
+    const float to = passage == Passage::door ? kDoorTo : 1.2f;
+    solid.carve({-r.wall(), 0, kDoorFrom}, {r.wall(), kDoorHeight, to}, Paint::room(m.plaster, m.floor, m.plaster));
+}
+
+/// Closed for a second, then it opens into the second room within two.
+void hangDoor(Scene& scene, const Rooms& r) {
+    constexpr float kGaps = 0.005f;  // on all sides
+    const float half = std::min(0.02f, 0.4f * r.thickness);
+    const int paint = addMaterial(scene, "door", {0.75f, 0.75f, 0.73f}, 0.5f);
+    MeshBuilder out(paint);
+    out.box({-half, kGaps, kGaps}, {half, kDoorHeight - kGaps, kDoorTo - kDoorFrom - kGaps});
+    const int node = place(scene, addMesh(scene, "door", {std::move(out)}), {0, 0, kDoorFrom});
+    addRotation(scene, node, {0, 1, 0}, {1.0f, 2.0f, 3.0f}, {0.0f, 50.0f, 100.0f});
+}
+
+Result<Scene> makeRooms(const BuiltinParams& params, const char* name, Passage passage) {
     if (auto r = requireWithin("wallThickness", params.wallThickness, 0.02f, 0.30f); !r) {
         return r.error();
     }
@@ -106,8 +131,9 @@ Result<Scene> makeRooms(const BuiltinParams& params, const char* name, bool door
     const Materials m = addMaterials(scene);
     BoxSolid solid = shell(r, m);
     openWindow(solid, r, m);
-    if (doorway) solid.carve({-r.wall(), 0, -0.6f}, {r.wall(), 2.2f, 1.2f}, Paint::room(m.plaster, m.floor, m.plaster));
+    openPassage(solid, r, m, passage);
     place(scene, addMesh(scene, solid.build("walls")));
+    if (passage == Passage::door) hangDoor(scene, r);
     furnish(scene, -1);
     furnish(scene, 1);
 
@@ -120,7 +146,7 @@ Result<Scene> makeRooms(const BuiltinParams& params, const char* name, bool door
 }  // namespace
 
 Result<Scene> makeTwoRooms(const BuiltinParams& params) {
-    auto scene = makeRooms(params, "two-rooms", true);
+    auto scene = makeRooms(params, "two-rooms", Passage::doorway);
     if (!scene) return scene;
     addCamera(*scene, "second", {4.5f, 1.6f, 1.9f}, {0, 1.1f, -0.1f}, 68);
     addCamera(*scene, "doorway", {-4.5f, 1.6f, 0.6f}, {4, 1.0f, 0.2f}, 60);
@@ -129,9 +155,18 @@ Result<Scene> makeTwoRooms(const BuiltinParams& params) {
     return scene;
 }
 
+/// The second room is dark until the door opens.
+Result<Scene> makeDoor(const BuiltinParams& params) {
+    auto scene = makeRooms(params, "door", Passage::door);
+    if (!scene) return scene;
+    addCamera(*scene, "second", {4.5f, 1.6f, 1.9f}, {0, 1.1f, -0.1f}, 68);
+    scene->exposure = 3.0f;
+    return scene;
+}
+
 /// The second room has no opening: its walls, floor and ceiling are one closed surface.
 Result<Scene> makeDarkRoom(const BuiltinParams& params) {
-    auto scene = makeRooms(params, "dark-room", false);
+    auto scene = makeRooms(params, "dark-room", Passage::none);
     if (!scene) return scene;
     addCamera(*scene, "dark", {4.5f, 1.6f, 1.9f}, {0, 1.1f, -0.1f}, 68);
     addCamera(*scene, "outside", {-6.5f, 4.2f, 10.5f}, {-0.6f, 1, 0}, 45);

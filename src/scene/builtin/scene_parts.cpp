@@ -110,4 +110,19 @@ int addCamera(Scene& scene, std::string name, glm::vec3 from, glm::vec3 at, floa
     return scene.addNode(std::move(node));
 }
 
+void addMotion(Scene& scene, int node, std::vector<float> times, const std::vector<glm::vec3>& places) {
+    AnimationChannel channel{node, AnimationPath::translation, Interpolation::linear, std::move(times), {}};
+    for (const glm::vec3& place : places) channel.values.emplace_back(place, 0.0f);
+    scene.animations.push_back(std::move(channel));
+}
+
+void addRotation(Scene& scene, int node, glm::vec3 axis, std::vector<float> times, const std::vector<float>& degrees) {
+    AnimationChannel channel{node, AnimationPath::rotation, Interpolation::linear, std::move(times), {}};
+    for (const float turn : degrees) {
+        const glm::quat q = glm::angleAxis(glm::radians(turn), axis);
+        channel.values.emplace_back(q.x, q.y, q.z, q.w);
+    }
+    scene.animations.push_back(std::move(channel));
+}
+
 }  // namespace probegi::builtin

@@ -28,4 +28,9 @@ int addSun(Scene& scene, glm::vec3 direction, glm::vec3 lux);
 int addPointLight(Scene& scene, std::string name, glm::vec3 position, glm::vec3 intensity);
 int addCamera(Scene& scene, std::string name, glm::vec3 from, glm::vec3 at, float yfovDegrees = 60);
 
+/// Moves a node along straight lines: at `times` (seconds) it is at `places`.
+void addMotion(Scene& scene, int node, std::vector<float> times, const std::vector<glm::vec3>& places);
+/// Turns a node about an axis: at `times` (seconds) by `degrees`, less than 180 from one to the next.
+void addRotation(Scene& scene, int node, glm::vec3 axis, std::vector<float> times, const std::vector<float>& degrees);
+
 }  // namespace probegi::builtin

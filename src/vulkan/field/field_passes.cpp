@@ -80,6 +80,7 @@ FieldPasses::FieldPasses(const Device& device, const FieldDesc& desc)
                 kAddressed),
       m_directions(device.impl(), "ray directions", (m_layout.rays + std::size_t(desc.fixedRays)) * sizeof(glm::vec3),
                    kAddressed),
+      m_events(device.impl(), "events", kernels::kMostEventRegions * sizeof(kernels::EventRegion), kAddressed),
       m_irradianceWeights(device.impl(), "irradiance weights",
                           m_layout.rays * m_layout.irradianceTexels * sizeof(float), kAddressed),
       m_visibilityRays(device.impl(), "rays of visibility texels",
@@ -166,7 +167,7 @@ void FieldPasses::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBin
 FieldMemory FieldPasses::memory() const noexcept {
     return {m_irradiance.bytes(), m_visibility.bytes(),
             m_states.bytes() + m_tasks.bytes() + m_sides.bytes() + m_filters.bytes() + m_constants.bytes() +
-                m_directions.bytes() + m_surfaces.bytes() + m_bounds.bytes() + m_chosen.bytes(),
+                m_directions.bytes() + m_surfaces.bytes() + m_bounds.bytes() + m_chosen.bytes() + m_events.bytes(),
             m_irradianceWeights.bytes() + m_visibilityRays.bytes() + m_visibilityWeights.bytes() + m_hits.bytes() +
                 m_rayData.bytes() + m_fixedRays.bytes() + m_emitterLights.bytes() + m_steps.bytes() +
                 m_changes.bytes()};
@@ -402,24 +403,25 @@ void FieldPasses::recordTrace(const Recorder& recorder, const UpdateFrame& frame
 
 void FieldPasses::recordBlend(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
                               Profiler* profiler) {
-    recorder.push(kernels::BlendPush{.tasks = packAddress(m_tasks.address()),
-                                     .rayData = packAddress(data.update),
-                                     .sides = packAddress(m_sides.address()),
-                                     .irradianceWeights = packAddress(m_irradianceWeights.address()),
-                                     .visibilityRays = packAddress(m_visibilityRays.address()),
-                                     .visibilityWeights = packAddress(m_visibilityWeights.address()),
-                                     .rays = int(m_layout.rays),
-                                     .irradianceHysteresis = frame.hysteresis.irradiance,
-                                     .visibilityHysteresis = frame.hysteresis.visibility,
-                                     .significantChange = frame.settings.significantChange,
-                                     .newDistribution = frame.settings.newDistribution,
-                                     .ditherSeed = frame.ditherSeed,
-                                     .linear = frame.linear ? 1 : 0,
-                                     .emitterLights = packAddress(data.emitterLights),
-                                     .looks = data.looks,
-                                     .steps = frame.windows ? packAddress(m_steps.address()) : kernels::uvec2(0),
-                                     .changes = packAddress(m_changes.address()),
-                                     .filters = packAddress(m_filters.address())});
+    recorder.push(kernels::BlendPush{
+        .tasks = packAddress(m_tasks.address()),
+        .rayData = packAddress(data.update),
+        .sides = packAddress(m_sides.address()),
+        .irradianceWeights = packAddress(m_irradianceWeights.address()),
+        .visibilityRays = packAddress(m_visibilityRays.address()),
+        .visibilityWeights = packAddress(m_visibilityWeights.address()),
+        .rays = int(m_layout.rays),
+        .irradianceHysteresis = frame.hysteresis.irradiance,
+        .visibilityHysteresis = frame.hysteresis.visibility,
+        .significantChange = frame.settings.significantChange,
+        .newDistribution = frame.settings.newDistribution,
+        .ditherSeed = frame.ditherSeed,
+        .linear = frame.linear ? 1 : 0,
+        .emitterLights = packAddress(data.emitterLights),
+        .looks = data.looks,
+        .steps = frame.windows || !frame.events.empty() ? packAddress(m_steps.address()) : kernels::uvec2(0),
+        .changes = packAddress(m_changes.address()),
+        .filters = packAddress(m_filters.address())});
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "blend irradiance");
         recorder.dispatchIndirect("blend_irradiance", m_tasks, offsetof(kernels::GpuTaskCounts, irradiance),
@@ -439,6 +441,21 @@ void FieldPasses::recordWindows(const Recorder& recorder, const UpdateFrame& fra
     recorder.dispatchIndirect("probe_lag", m_tasks, offsetof(kernels::GpuTaskCounts, perTask));
     recorder.computeToCompute();
     recorder.dispatchIndirect("probe_windows", m_tasks, offsetof(kernels::GpuTaskCounts, perTask));
+    recorder.computeToCompute();
+}
+
+void FieldPasses::recordEvents(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler) {
+    if (frame.events.empty()) return;
+    const PassScope scope(recorder, m_device.impl(), profiler, "events");
+    recorder.push(kernels::EventPush{.tasks = packAddress(m_tasks.address()),
+                                     .steps = packAddress(m_steps.address()),
+                                     .filters = packAddress(m_filters.address()),
+                                     .regions = packAddress(m_events.address()),
+                                     .count = frame.events.count,
+                                     .windows = frame.windows ? 1 : 0,
+                                     .irradianceHysteresis = frame.hysteresis.irradiance,
+                                     .visibilityHysteresis = frame.hysteresis.visibility});
+    recorder.dispatchIndirect("probe_events", m_tasks, offsetof(kernels::GpuTaskCounts, perTask));
     recorder.computeToCompute();
 }
 
@@ -479,11 +496,13 @@ void FieldPasses::beginUpdate(const Recorder& recorder, const UpdateFrame& frame
     for (const char* shader : {"all_tasks", "count_tasks", "blend_weights", "probe_lag", "probe_windows",
                                "probe_filter", "blend_visibility", "find_solid_probes"})
         pipelines.get(shader);
+    if (!frame.events.empty()) pipelines.get("probe_events");
     pipelines.get("blend_irradiance", irradianceConstants(frame.settings));
     recordSettings(recorder, frame.settings);
     recorder.orderAll();
     recorder.write(m_directions, std::as_bytes(frame.directions));
     recorder.write(m_directions, std::as_bytes(frame.fixedDirections), frame.directions.size_bytes());
+    if (!frame.events.empty()) recorder.write(m_events, std::as_bytes(frame.events.all()));
     recorder.transferToCompute();
     recorder.bindVolume(set());
     recordTasks(recorder, frame, looks);
@@ -512,6 +531,7 @@ void FieldPasses::recordUpdate(const Recorder& recorder, const UpdateFrame& fram
 void FieldPasses::recordRest(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
                              Profiler* profiler) {
     recordWindows(recorder, frame, data, profiler);
+    recordEvents(recorder, frame, profiler);
     recordBlend(recorder, frame, data, profiler);
     recordFilter(recorder, frame, data, profiler);
     recordSolidProbes(recorder, profiler);

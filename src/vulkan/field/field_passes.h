@@ -105,6 +105,7 @@ private:
     void recordRest(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data, Profiler* profiler);
     void recordWindows(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data,
                        Profiler* profiler);
+    void recordEvents(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler);
     void recordFilter(const Recorder& recorder, const UpdateFrame& frame, const RayAddresses& data, Profiler* profiler);
     void recordSolidProbes(const Recorder& recorder, Profiler* profiler);
     kernels::FilterPush filterPush(const UpdateFrame& frame, const RayAddresses& data) const;
@@ -125,6 +126,7 @@ private:
     Buffer m_steps, m_changes;              // passed between the passes of an update
     Buffer m_surfaces, m_bounds, m_chosen;  // of recorded updates with relocation or states: kernels::PlacesPush
     Buffer m_directions;                    // vec3 per ray: those of the update, then the fixed ones
+    Buffer m_events;                        // EventRegion of the update
     Buffer m_irradianceWeights;             // float[ray][texel]
     Buffer m_visibilityRays;                // GpuTexelRays[texel]
     Buffer m_visibilityWeights;             // GpuRayWeight[entry][texel]

@@ -103,7 +103,7 @@ UpdateTimes VulkanField::updateOnGpu(const UpdateFrame& frame, const GpuTracer& 
     });
     m_updatePasses = orThrow(m_profiler->read());
     return {sumOf(m_updatePasses, "trace"), sumOf(m_updatePasses, "shade") + sumOf(m_updatePasses, "emitters"),
-            sumOf(m_updatePasses, "weights") + sumOf(m_updatePasses, "windows") +
+            sumOf(m_updatePasses, "weights") + sumOf(m_updatePasses, "windows") + sumOf(m_updatePasses, "events") +
                 sumOf(m_updatePasses, "blend irradiance") + sumOf(m_updatePasses, "blend visibility") +
                 sumOf(m_updatePasses, "filter") + sumOf(m_updatePasses, "solid probes"),
             millisecondsSince(start)};

@@ -1,0 +1,99 @@
+#include "animation/moving_scene.h"
+
+#include <chrono>
+#include <glm/ext/matrix_transform.hpp>
+#include <vector>
+
+namespace probegi::tool {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Files hide objects by scaling them to nothing, which a pose leaves out, but a tracer wants all that moves to be
+// somewhere: so it gets them as specks.
+constexpr float kSpeck = 1e-5f;
+
+// The nodes that animations move.
+std::vector<bool> movingNodes(const Scene& scene) {
+    std::vector<bool> moves(scene.nodes.size(), false);
+    for (const AnimationChannel& channel : scene.animations) moves[std::size_t(channel.node)] = true;
+    for (std::size_t i = 0; i < moves.size(); ++i)  // parents come first
+        if (scene.nodes[i].parent >= 0 && moves[std::size_t(scene.nodes[i].parent)]) moves[i] = true;
+    return moves;
+}
+
+ScenePose withHiddenAsSpecks(const Scene& scene, ScenePose pose) {
+    std::vector<bool> missing = movingNodes(scene);
+    for (const Instance& instance : pose.instances) missing[std::size_t(instance.node)] = false;
+    const glm::mat4 speck = glm::scale(glm::translate(glm::mat4(1.0f), pose.bounds.centre()), glm::vec3(kSpeck));
+    for (std::size_t node = 0; node < missing.size(); ++node)
+        if (missing[node] && scene.nodes[node].mesh >= 0)
+            pose.instances.push_back({scene.nodes[node].mesh, int(node), speck});
+    return pose;
+}
+
+double millisecondsSince(Clock::time_point& start) {
+    const auto now = Clock::now();
+    const double passed = std::chrono::duration<double, std::milli>(now - start).count();
+    start = now;
+    return passed;
+}
+
+}  // namespace
+
+// What moves must be announced, or probes in the air would sleep through it; volumes that follow the camera follow.
+Result<void> MovingScene::tellField() {
+    if (!m_field) return {};
+    const std::vector<Bounds> moving = movingBounds(*m_setup->scene, m_setup->pose);
+    if (auto told = m_field->control().setMoving(moving); !told) return told;
+    return m_setup->settings.camera ? m_field->followCamera(m_setup->camera.position) : Result<void>();
+}
+
+Result<MovingScene> MovingScene::open(const Backend& backend, LoadedSetup& setup, const RenderOptions& options) {
+    MovingScene moving;
+    moving.m_setup = &setup;
+    moving.m_options = &options;
+    auto tracer = backend.openMovableScene(*setup.scene, withHiddenAsSpecks(*setup.scene, setup.pose));
+    if (!tracer) return tracer.error();
+    moving.m_tracer = std::move(*tracer);
+    auto field = makeEmptyField(backend, setup, options);
+    if (!field) return field.error();
+    moving.m_field = std::move(*field);
+    moving.watchFromHere();
+    return moving;
+}
+
+Result<FieldRun> MovingScene::fill() {
+    if (!m_field) return FieldRun();
+    if (auto told = tellField(); !told) return told.error();
+    return runField(*m_field, *m_tracer, m_setup->lighting, m_options->run);
+}
+
+void MovingScene::watchFromHere() {
+    if (m_field && m_options->events) m_watch.emplace(*m_setup->scene, m_setup->pose, m_setup->lighting);
+}
+
+Result<MoveTimes> MovingScene::moveTo(double seconds, int updates) {
+    MoveTimes times;
+    auto start = Clock::now();
+    if (auto moved = moveSetup(*m_setup, m_options->scene, float(seconds)); !moved) return moved.error();
+    if (!m_setup->scene->animations.empty())
+        if (auto moved = m_tracer->setPose(withHiddenAsSpecks(*m_setup->scene, m_setup->pose)); !moved)
+            return moved.error();
+    times.pose = millisecondsSince(start);
+    if (m_watch) {
+        const auto edits = m_watch->edits(m_setup->pose, m_setup->lighting, *m_tracer);
+        if (!edits) return edits.error();
+        notify(m_field->control(), *edits);
+        times.editsFound = int(edits->size());
+    }
+    times.edits = millisecondsSince(start);
+    if (auto told = tellField(); !told) return told.error();
+    for (int i = 0; m_field && i < updates; ++i)
+        if (const auto updated = m_field->update(*m_tracer, m_setup->lighting); !updated) return updated.error();
+    times.update = millisecondsSince(start);
+    return times;
+}
+
+}  // namespace probegi::tool

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "probegi/edits.h"
+#include "render_options.h"
+
+namespace probegi::tool {
+
+/// Times of one step, milliseconds.
+struct MoveTimes {
+    double pose = 0;    ///< the scene's and the tracer's
+    double edits = 0;   ///< to find them
+    double update = 0;  ///< all updates together
+    int editsFound = 0;
+};
+
+/// A scene, its tracer and its field, taken through time as an engine does: the pose changes, the field is told and
+/// updated, and keeps what it knows.
+class MovingScene {
+public:
+    /// At the setup's pose, with a field that holds nothing yet. Backend, setup and options must outlive it.
+    /// Errors: those of the backend.
+    static Result<MovingScene> open(const Backend& backend, LoadedSetup& setup, const RenderOptions& options);
+
+    /// Fills the field for the scene as it is. Errors: those of runField().
+    Result<FieldRun> fill();
+    /// To another moment, in seconds, followed by so many updates. Errors: those of the tracer and the field.
+    Result<MoveTimes> moveTo(double seconds, int updates);
+    /// Forgets what moved since: edits are found against the scene as it is now.
+    void watchFromHere();
+
+    const Tracer& tracer() const { return *m_tracer; }
+    const LoadedSetup& setup() const { return *m_setup; }
+    Field* field() { return m_field ? &*m_field : nullptr; }
+
+private:
+    MovingScene() = default;
+    Result<void> tellField();
+
+    LoadedSetup* m_setup = nullptr;
+    const RenderOptions* m_options = nullptr;
+    std::unique_ptr<MovableTracer> m_tracer;
+    std::optional<Field> m_field;
+    std::optional<SceneWatch> m_watch;
+};
+
+}  // namespace probegi::tool

@@ -1,0 +1,53 @@
+#include "render_options.h"
+
+#include "console/parse.h"
+
+namespace probegi::tool {
+
+namespace {
+
+constexpr float kPaperVisibilityExponent = 50;
+
+}  // namespace
+
+bool hasProbes(const RenderOptions& options) {
+    return options.method != Method::none && (options.method != Method::reference || options.guide);
+}
+
+PictureDesc pictureDesc(const RenderOptions& options, const LoadedSetup& setup) {
+    const PictureSize size = *parseSize(options.size);
+    return {setup.camera, size.width, size.height, options.antialias, options.diffuseOnly};
+}
+
+Result<std::optional<Field>> makeEmptyField(const Backend& backend, const LoadedSetup& setup,
+                                            const RenderOptions& options) {
+    if (!hasProbes(options)) return std::nullopt;
+    FieldDesc desc;
+    desc.volumes = setup.volumes;
+    desc.raysPerProbe = options.rays;
+    desc.seed = options.seed;
+    desc.rules = options.rules;
+    desc.relocation = options.relocation;
+    desc.probeStates = options.probeStates;
+    FieldSettings settings = setup.settings;
+    if (options.rules == FieldRules::paper) settings.visibilityExponent = kPaperVisibilityExponent;
+    settings.guard = options.method == Method::leaky ? LeakGuard::none : LeakGuard::moments;
+    auto field = backend.makeField(desc, settings);
+    if (!field) return field.error();
+    return std::move(*field);
+}
+
+Result<ReferencePicture> renderReference(const Context& context, const Tracer& tracer, const LoadedSetup& setup,
+                                         const RenderOptions& options, const Field* guide) {
+    const auto pathTracer = PathTracer::create(context, *setup.scene, setup.pose, tracer, setup.lighting);
+    if (!pathTracer) return pathTracer.error();
+    ReferenceDesc desc;
+    desc.picture = pictureDesc(options, setup);
+    desc.seconds = options.seconds.value_or(0);
+    desc.samplesPerPixel = options.samplesPerPixel.value_or(options.seconds ? 0 : kDefaultReferenceSamples);
+    desc.seed = options.seed;
+    desc.guide = guide;
+    return pathTracer->render(desc);
+}
+
+}  // namespace probegi::tool

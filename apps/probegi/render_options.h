@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "animation/frame_times.h"
+#include "aov.h"
+#include "backend.h"
+#include "field_run.h"
+#include "probegi/reference.h"
+#include "scene_setup.h"
+
+namespace probegi::tool {
+
+/// Where indirect light comes from.
+enum class Method { none, leaky, ddgi, reference };
+
+inline constexpr int kDefaultReferenceSamples = 64;
+
+/// Updates between two pictures of --animate (docs/accuracy.md, "Moving things").
+inline constexpr int kDefaultUpdatesPerFrame = 4;
+
+/// All options of `probegi render`. The strings have passed their parsers.
+struct RenderOptions {
+    SceneOptions scene;
+    BackendOptions backend;
+    std::string output, stats;
+    Method method = Method::ddgi;
+    FieldRules rules = FieldRules::measured;
+    Aov aov = Aov::color;
+    std::string size = "960x540";
+    int antialias = 2;
+    bool diffuseOnly = false;
+    bool filmic = false;
+    std::uint64_t seed = 1;
+    int rays = FieldDesc{}.raysPerProbe;
+    FieldRunOptions run;
+    std::optional<int> samplesPerPixel;
+    std::optional<double> seconds;
+    bool guide = false;
+    bool relocation = false, probeStates = false;
+    std::string debug;    ///< name of a DebugView; empty: a picture
+    std::string animate;  ///< empty: one picture
+    std::optional<int> updatesPerFrame;
+    bool events = true;  ///< --events
+};
+
+/// Whether the method has a field of probes.
+bool hasProbes(const RenderOptions& options);
+
+PictureDesc pictureDesc(const RenderOptions& options, const LoadedSetup& setup);
+
+/// The field that the options ask for, still empty; none for methods without.
+Result<std::optional<Field>> makeEmptyField(const Backend& backend, const LoadedSetup& setup,
+                                            const RenderOptions& options);
+
+/// A path-traced picture of the setup as it is; `guide`: null for none.
+Result<ReferencePicture> renderReference(const Context& context, const Tracer& tracer, const LoadedSetup& setup,
+                                         const RenderOptions& options, const Field* guide);
+
+}  // namespace probegi::tool
