@@ -6,6 +6,7 @@
 #include "backend.h"
 #include "console/parse.h"
 #include "console/terminal.h"
+#include "leak_sweep.h"
 #include "markdown.h"
 #include "motion.h"
 #include "probegi/builtin_scenes.h"
@@ -18,10 +19,11 @@ using namespace probegi::accuracy;
 
 struct Options {
     std::string page;
-    std::string only;  ///< a scene, "leak" or "surfaces"; empty: all
+    std::string only;  ///< a scene, "leak", "sweep", "surfaces" or "motion"; empty: all
     std::string scenesFolder = "../shared/scenes";
     int threads = 0;
     int samplesPerPixel = 256;
+    float updatesFrom = SweepDesc{}.finestUpdated;  ///< metres between probes; finer grids of the sweep converge only
 };
 
 /// A scene of the tables, as it would be passed to `probegi render`.
@@ -152,6 +154,13 @@ Result<void> measure(const Options& options) {
         leaks.push_back(*leak);
     }
     std::string tables = accuracyTables(scenes, leaks, context->threads());
+    if (wanted("sweep")) {
+        SweepDesc desc;
+        desc.finestUpdated = options.updatesFrom;
+        const auto rows = sweepLeaks(*context, desc);
+        if (!rows) return rows.error();
+        tables += sweepTables(*rows);
+    }
     if (wanted("surfaces")) {
         const auto table = surfaces(*context, options);
         if (!table) return table.error();
@@ -174,11 +183,15 @@ int run(int argc, char** argv) {
     app.add_option("-o,--output", options.page, "page whose measured part is replaced (default: print)")
         ->type_name("FILE");
     app.add_option("--only", options.only,
-                   "print the tables of one scene, the leak, the surfaces or motion, and write nothing")
-        ->type_name("cornell|two-rooms|dark-room|sponza|leak|surfaces|motion");
+                   "print the tables of one scene, the leak, its sweep, the surfaces or motion, and write nothing")
+        ->type_name("cornell|two-rooms|dark-room|sponza|leak|sweep|surfaces|motion");
     app.add_option("--scenes", options.scenesFolder, "folder of the real scenes (default: PROBEGI_SCENES)")
         ->capture_default_str();
     app.add_option("--threads", options.threads, "worker threads; 0: all")->check(tool::inRange(0, 1024));
+    app.add_option("--updates-from", options.updatesFrom,
+                   "sweep: finer grids than this are converged, but not filled by updates, metres")
+        ->check(tool::inRange(0, 1e6))
+        ->capture_default_str();
     app.add_option("--spp", options.samplesPerPixel, "samples a pixel of the reference")
         ->check(tool::inRange(1, 1e6))
         ->capture_default_str();

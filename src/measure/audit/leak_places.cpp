@@ -49,8 +49,8 @@ bool belongTogether(const ExplainedPoint& a, const ExplainedPoint& b, double rea
         return false;
     if (glm::dot(p.query.normal, q.query.normal) > kAlike) return true;
     // A nook has many sides, which face each other; a leaking wall has one.
-    return a.why.cause == LeakCause::noProbeSees && double(glm::length(way)) < kNook * reach && glm::dot(way, p.query.normal) > 0 &&
-           glm::dot(way, q.query.normal) < 0;
+    return a.why.cause == LeakCause::noProbeSees && double(glm::length(way)) < kNook * reach &&
+           glm::dot(way, p.query.normal) > 0 && glm::dot(way, q.query.normal) < 0;
 }
 
 /// The median of the values above 0; 0 if most are not.
