@@ -33,7 +33,8 @@ double smallest(glm::vec3 v) {
 
 /// What hides the probes.
 std::string obstacle(const LeakPlace& place) {
-    if (place.wall > 0) return fmt::format("a wall {} thick", metres(place.wall));
+    const char* const what = place.cause == LeakCause::thinWall ? "a wall" : "geometry";
+    if (place.wall > 0) return fmt::format("{} {} thick", what, metres(place.wall));
     if (place.wall == 0) return "a sheet without thickness";
     return "geometry";
 }

@@ -5,6 +5,7 @@
 #include "core/progress.h"
 #include "core/sentence.h"
 #include "measure/audit/leak_places.h"
+#include "measure/audit/viewers.h"
 #include "measure/input_checks.h"
 #include "measure/luminance.h"
 #include "measure/surface_sampling.h"
@@ -130,6 +131,7 @@ Result<LeakAudit> auditScene(const Context& context, const Scene& scene, const S
     if (!samples) return samples.error();
     std::vector<FieldQuery> queries;
     for (const SurfaceSample& sample : *samples) queries.push_back(sample.query);
+    if (auto placed = placeViewers(tracer, queries, desc.seed); !placed) return placed.error();
     LeakCounts counts;
     auto points = measureAllLeaks(context, *record, tracer, queries, counts);
     if (!points) return points.error();
