@@ -8,6 +8,7 @@
 #include "console/terminal.h"
 #include "events.h"
 #include "flight.h"
+#include "leak_sweep.h"
 #include "markdown.h"
 #include "motion.h"
 #include "outside.h"
@@ -28,6 +29,7 @@ struct Options {
     std::string scenesFolder = "../shared/scenes";
     int threads = 0;
     int samplesPerPixel = 256;
+    float updatesFrom = SweepDesc{}.finestUpdated;  ///< metres between probes; finer grids of the sweep converge only
 };
 
 /// A scene of the tables, as it would be passed to `probegi render`.
@@ -228,6 +230,13 @@ Result<void> measure(const Options& options) {
         leaks.push_back(*leak);
     }
     std::string tables = accuracyTables(scenes, leaks, context->threads());
+    if (wanted("sweep")) {
+        SweepDesc desc;
+        desc.finestUpdated = options.updatesFrom;
+        const auto rows = sweepLeaks(*context, desc);
+        if (!rows) return rows.error();
+        tables += sweepTables(*rows);
+    }
     if (wanted("surfaces")) {
         const auto table = surfaces(*context, options);
         if (!table) return table.error();
@@ -269,15 +278,20 @@ int run(int argc, char** argv) {
     if (const char* folder = std::getenv("PROBEGI_SCENES"); folder && *folder) options.scenesFolder = folder;
     app.add_option("-o,--output", options.page, "page whose measured part is replaced (default: print)")
         ->type_name("FILE");
-    app.add_option("--only", options.only,
-                   "print the tables of one scene, the leak, the surfaces, placement, motion, events, a flight or what "
-                   "is outside of volumes, and write nothing")
-        ->type_name("cornell|two-rooms|dark-room|sponza|leak|surfaces|placement|motion|events|flight|outside");
+    app.add_option(
+           "--only", options.only,
+           "print the tables of one scene, the leak, its sweep, the surfaces, placement, motion, events, a flight "
+           "or what is outside of volumes, and write nothing")
+        ->type_name("cornell|two-rooms|dark-room|sponza|leak|sweep|surfaces|placement|motion|events|flight|outside");
     app.add_option("--scene", options.scene, "of placement: this scene only");
     app.add_flag("--leaky", options.leaky, "placement: without a visibility test");
     app.add_option("--scenes", options.scenesFolder, "folder of the real scenes (default: PROBEGI_SCENES)")
         ->capture_default_str();
     app.add_option("--threads", options.threads, "worker threads; 0: all")->check(tool::inRange(0, 1024));
+    app.add_option("--updates-from", options.updatesFrom,
+                   "sweep: finer grids than this are converged, but not filled by updates, metres")
+        ->check(tool::inRange(0, 1e6))
+        ->capture_default_str();
     app.add_option("--spp", options.samplesPerPixel, "samples a pixel of the reference")
         ->check(tool::inRange(1, 1e6))
         ->capture_default_str();

@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
     addScenesCommand(app, exitCode);
     addRenderCommand(app, exitCode);
     addReportCommand(app, exitCode);
+    addAuditCommand(app, exitCode);
     addCompareCommand(app, exitCode);
     addInfoCommand(app, exitCode);
     addDevicesCommand(app, exitCode);

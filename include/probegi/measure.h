@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "probegi/audit.h"
 #include "probegi/export.h"
 #include "probegi/field.h"
 #include "probegi/image.h"

@@ -5,8 +5,8 @@
 #include <glm/common.hpp>
 
 #include "core/sentence.h"
+#include "field/map_bilinear.h"
 #include "kernels/probe/irradiance_decoding.h"
-#include "kernels/probe/octahedral_texel.h"
 #include "kernels/probe/probe_state.h"
 #include "kernels/probe/probe_texel.h"
 #include "kernels/volume/probe_offset.h"
@@ -17,20 +17,6 @@ namespace {
 
 constexpr std::uint16_t kInfiniteHalf = 0x7c00;
 constexpr int kLastFrame = 1 << 30;  // far from where counting would overflow
-
-// Bilinear in an octahedral map: between the four texels around a direction, border resolved.
-template <class Texel>
-auto bilinear(glm::vec3 direction, int size, const Texel& texel) {
-    const glm::vec2 at = kernels::octTexelPosition(kernels::octEncode(direction), size);
-    const glm::vec2 corner = glm::clamp(glm::floor(at), glm::vec2(-1.0f), glm::vec2(float(size - 1)));
-    const glm::vec2 f = at - corner;
-    const auto tap = [&](int x, int y) {
-        const glm::ivec2 t = kernels::octWrapTexel(int(corner.x) + x, int(corner.y) + y, size);
-        return texel(std::size_t(t.y * size + t.x));
-    };
-    return (1 - f.x) * (1 - f.y) * tap(0, 0) + f.x * (1 - f.y) * tap(1, 0) + (1 - f.x) * f.y * tap(0, 1) +
-           f.x * f.y * tap(1, 1);
-}
 
 bool isShare(float x) {
     return x >= 0.0f && x <= 1.0f;
@@ -164,7 +150,7 @@ int FieldSnapshot::slotOf(int volume, int number) const noexcept {
 glm::vec3 FieldSnapshot::probeIrradiance(int slot, glm::vec3 normal) const noexcept {
     const int size = desc.irradianceTexels;
     const std::uint16_t* map = irradiance.data() + std::size_t(slot - slots.first) * 3 * std::size_t(size * size);
-    const glm::vec3 stored = bilinear(normal, size, [&](std::size_t texel) {
+    const glm::vec3 stored = bilinearInMap(normal, size, [&](std::size_t texel) {
         return glm::vec3(kernels::unpackHalf(map[3 * texel]), kernels::unpackHalf(map[3 * texel + 1]),
                          kernels::unpackHalf(map[3 * texel + 2]));
     });
@@ -176,7 +162,7 @@ glm::vec2 FieldSnapshot::probeDistanceMoments(int slot, glm::vec3 direction) con
     const int size = desc.visibilityTexels;
     const std::uint32_t* map = visibility.data() + std::size_t(slot - slots.first) * std::size_t(size * size);
     const float range = visibilityRange(volumeWithSlot(desc, slot));
-    return bilinear(direction, size, [&](std::size_t texel) { return kernels::unpackMoments(map[texel]); }) *
+    return bilinearInMap(direction, size, [&](std::size_t texel) { return kernels::unpackMoments(map[texel]); }) *
            glm::vec2(range, range * range);
 }
 

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "audit/text.h"
 #include "probegi/measure.h"
 #include "report/linear_png.h"
 #include "report/probe_picture.h"
@@ -122,9 +123,21 @@ Result<ReportPicture> leakPicture(const ReportPlace& place, const std::string& p
     return keepPicture(place, prefix, {text, leaks.picture, kPlain, leaks.ratio});
 }
 
+Result<ReportPicture> hiddenPicture(const ReportPlace& place, const std::string& prefix, const HdrImage& picture) {
+    const ReportPicture text{
+        .id = "hidden",
+        .title = "Leaks through geometry",
+        .caption =
+            "Light that probes behind geometry bring (red) or take (blue), by exact visibility, without the "
+            "reference. The table of places below says why, and what helps.",
+        .alt = fmt::format("{}: map of light from probes behind geometry", place.title)};
+    return keepPicture(place, prefix, {text, picture, kPlain, picture});
+}
+
 Result<std::vector<ReportPicture>> mapsOf(const RenderedView& view, const ReportPlace& place,
                                           const std::string& prefix) {
-    std::vector<Result<ReportPicture>> made{leakPicture(place, prefix, view.leaks)};
+    std::vector<Result<ReportPicture>> made{leakPicture(place, prefix, view.leaks),
+                                            hiddenPicture(place, prefix, view.hiddenLeaks)};
     for (const Lit& light : lightings(view))
         if (light.method)
             made.push_back(flipPicture(place, prefix, light.id, fmt::format("Error: {}", light.title),
@@ -282,6 +295,7 @@ nlohmann::json sceneNumbers(const RenderedScene& scene) {
                                  {"noiseFloor", numbers(view->noiseFloor)},
                                  {"leaks", {{"places", leaks.leaks}, {"of", leaks.tiles}, {"worst", leaks.worst}}}});
     }
+    json["audit"] = nlohmann::json(auditJson(scene.audit, scene.auditDesc, scene.origin));
     json["ratioProbes"] = {{"used", scene.truth.probes.size()},
                            {"inWalls", scene.truth.inWalls},
                            {"dark", scene.truth.dark},

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "audit/picture.h"
 #include "render_stats.h"
 
 namespace probegi::tool {
@@ -54,6 +55,8 @@ constexpr const char* kField = "field";
 constexpr const char* kRealtime = "field in real time";
 constexpr const char* kReference = "path tracing";
 constexpr const char* kComparing = "comparing pictures";
+constexpr const char* kAudit = "looking for leaks";
+constexpr int kAuditSamples = 128;  // paths a point by which places are confirmed
 
 Result<FieldResult> fillField(Field& field, const Tracer& tracer, const Lighting& lighting,
                               const FieldRunOptions& options) {
@@ -248,6 +251,29 @@ Result<void> compareViews(const Studio& studio, RenderedScene& scene) {
     return {};
 }
 
+/// Looks for leaks all over the scene, and in what each camera sees.
+Result<void> auditField(const Context& context, const Studio& studio, const Tracer& rays, const PathTracer& pathTracer,
+                        const Field& field, RenderedScene& scene) {
+    studio.begin(kAudit);
+    AuditDesc desc;
+    desc.seed = studio.settings.seed;
+    desc.truthSamples = kAuditSamples;
+    desc.truth = &pathTracer;
+    auto audit = auditLeaks(context, *studio.setup.scene, studio.setup.pose, rays, field, desc);
+    if (!audit) return audit.error();
+    scene.audit = std::move(*audit);
+    desc.truth = nullptr;
+    scene.auditDesc = desc;
+    scene.origin = studio.setup.scene->origin;
+    for (RenderedView* view : viewsOf(scene)) {
+        const HdrImage& color = view->ddgi.picture.color;
+        const auto seen = leaksSeen(context, rays, field, view->camera, color.width, color.height);
+        if (!seen) return seen.error();
+        view->hiddenLeaks = drawLeaks(color, view->exposure, *seen, desc);
+    }
+    return {};
+}
+
 }  // namespace
 
 std::vector<PlacedCamera> reportCameras(const LoadedSetup& setup, const ReportSettings& settings) {
@@ -277,6 +303,7 @@ std::vector<ReportPiece> reportPieces(const LoadedSetup& setup, const ReportSett
     for (std::size_t camera = 0; camera < cameras; ++camera)
         pieces.push_back({kReference, camera == 0 ? reference : reference / (kOthersShrink * kOthersShrink)});
     pieces.push_back({kComparing, 4e-6 * pixels});
+    pieces.push_back({kAudit, 2 + 5e-6 * pixels});
     return pieces;
 }
 
@@ -319,6 +346,7 @@ Result<RenderedScene> renderForReport(const Context& context, const Backend& bac
     for (RenderedView* view : viewsOf(scene))
         if (auto done = drawReference(*pathTracer, studio, *field, *view); !done) return done.error();
     if (auto done = compareViews(studio, scene); !done) return done.error();
+    if (auto done = auditField(context, studio, **tracer, *pathTracer, *field, scene); !done) return done.error();
     return scene;
 }
 

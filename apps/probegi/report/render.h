@@ -81,6 +81,7 @@ struct RenderedView {
     ImageDifference noiseFloor;  ///< what an exact picture would score against this reference due to its noise
     HdrImage noiseMap;           ///< per pixel FLIP of that
     LeakMap leaks;               ///< of the field with its guard
+    HdrImage hiddenLeaks;        ///< drawLeaks(): what probes behind geometry bring and take
     /// The same for the indirect light alone. Noise is counted up to the indirect light itself: what exceeds it, at the
     /// edges of lamps, is noise of the direct light.
     ImageDifference indirectNoiseFloor;
@@ -102,6 +103,9 @@ struct RenderedScene : RenderedView {
     std::optional<FieldPicture> realtime;  ///< with ReportSettings::realtimeUpdates
     ProbeTruth truth;
     std::vector<ProbeSight> probes;    ///< by index, with the leak guard
+    LeakAudit audit;                   ///< of the field with its guard, all over the scene
+    AuditDesc auditDesc;               ///< how it was made; its path tracer is gone
+    glm::vec3 origin{0.0f};            ///< Scene::origin
     std::vector<RenderedView> others;  ///< the views of the scene's other cameras
 };
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "audit/text.h"
 #include "console/machine.h"
 #include "console/output.h"
 
@@ -150,9 +153,27 @@ std::string grouped(std::size_t number) {
     return text;
 }
 
+namespace {
+
+constexpr std::size_t kPlaces = 10;  // of an audit that are listed
+
+ReportTable auditTable(const RenderedScene& scene) {
+    ReportTable table{"Where the field leaks through geometry", {"", "where", "why", "what helps"}, {}, ""};
+    for (std::size_t i = 0; i < std::min(scene.audit.places.size(), kPlaces); ++i) {
+        const PlaceText text = describe(scene.audit.places[i], scene.origin);
+        table.rows.push_back({text.title, text.where, text.why, text.remedy});
+    }
+    if (table.rows.empty()) table.header.clear();
+    table.note = auditSummary(scene.audit, scene.auditDesc) +
+                 ". The most visible first; probegi audit lists them all, and can fail a level's tests.";
+    return table;
+}
+
+}  // namespace
+
 std::vector<ReportTable> reportTables(const RenderedScene& scene) {
-    std::vector<ReportTable> tables{wholeTable(scene), indirectTable(scene), lightTable(scene),
-                                    ratioTable(scene), timeTable(scene),     sceneTable(scene)};
+    std::vector<ReportTable> tables{wholeTable(scene), indirectTable(scene), lightTable(scene), ratioTable(scene),
+                                    timeTable(scene),  sceneTable(scene),    auditTable(scene)};
     if (!scene.others.empty()) tables.insert(tables.begin(), cameraTable(scene));
     return tables;
 }
