@@ -15,6 +15,7 @@ namespace probegi {
 namespace {
 
 constexpr float kEndless = 1e30f;
+constexpr float kGap = 1e-3f;  // between a box and where its rays begin, over its diagonal
 
 float unit(std::uint32_t& state) {
     return kernels::nextRandom(state);
@@ -43,7 +44,9 @@ Ray rayFromBox(const Bounds& box, std::uint32_t& state) {
     const bool up = unit(state) < 0.5f;
     const float x = unit(state), y = unit(state), z = unit(state), u = unit(state), v = unit(state);
     glm::vec3 at = box.lower + glm::vec3(x, y, z) * size;
-    at[axis] = up ? box.upper[axis] : box.lower[axis];
+    // Not on the face itself, which may be the object's own.
+    const float gap = kGap * glm::length(size);
+    at[axis] = up ? box.upper[axis] + gap : box.lower[axis] - gap;
     glm::vec3 normal(0.0f);
     normal[axis] = up ? 1.0f : -1.0f;
     Ray ray;

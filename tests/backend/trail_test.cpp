@@ -15,7 +15,7 @@ protected:
         desc.raysPerProbe = 64;
     }
 
-    /// The pose at the end with the box (`walls` apart, the other mesh on the floor) somewhere else.
+    /// The pose at the end with the box somewhere else.
     ScenePose poseWithBoxAt(glm::vec3 place) const {
         ScenePose pose = poseAt(scene, 4);
         for (Instance& instance : pose.instances)
@@ -79,10 +79,11 @@ Worst ratios(const std::vector<glm::vec3>& light, const std::vector<glm::vec3>& 
 TEST_P(BackendTrail, aBoxThatPassedLeavesNone) {
     const std::vector<glm::vec3> never = lightAfter(false, 30, true);
     const Worst soon = ratios(lightAfter(true, 0, true), never), later = ratios(lightAfter(true, 30, true), never);
-    std::printf("[ trail ] soon %.3f %.3f %.3f later %.3f %.3f %.3f\n", soon.darkest, soon.brightest, soon.mean,
-                later.darkest, later.brightest, later.mean);
-    EXPECT_GT(later.darkest, 0.9);
-    EXPECT_LT(later.brightest, 1.1);
+    // Measured on every backend: 0.915 to 1.000, 0.945 on average at once; 0.974 to 1.000, 0.980 after 30 updates.
+    EXPECT_GT(soon.darkest, 0.85);
+    EXPECT_LT(soon.brightest, 1.05);
+    EXPECT_GT(later.darkest, 0.95);
+    EXPECT_LT(later.brightest, 1.03);
     EXPECT_NEAR(later.mean, 1, 0.03);
 }
 

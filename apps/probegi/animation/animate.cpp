@@ -178,7 +178,7 @@ void warnWhereNothingMoves(const Scene& scene, const FrameTimes& times) {
         first = std::min(first, channel.times.front());
         last = std::max(last, channel.times.back());
     }
-    if (times.from >= double(last) || times.to <= double(first))
+    if (times.count() > 1 && (times.from >= double(last) || times.to <= double(first)))
         printWarning(
             fmt::format("the scene's animations are from second {:.4g} to {:.4g}: nothing moves in the "
                         "pictures",
