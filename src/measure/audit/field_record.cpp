@@ -5,6 +5,7 @@
 #include "field/guard_number.h"
 #include "field/layout.h"
 #include "field/map_bilinear.h"
+#include "field/volume_access.h"
 #include "kernels/probe/probe_texel.h"
 #include "kernels/volume/placed_probe.h"
 #include "kernels/volume/volume_choice.h"
@@ -110,7 +111,7 @@ double answerOf(const FieldRecord& record, const FieldQuery& query, const LookUp
     } else {
         const kernels::Volume& v = record.volumes[std::size_t(look.volume)];
         e = kernels::completedByNeighbours(light.root, w.weightSum,
-                                           kernels::neighboursIrradiance(access, v, look.cage, query.normal));
+                                           kernels::neighboursAnswer(access, v, look.cage, query.normal).irradiance);
     }
     return channelMean(e);
 }
@@ -125,7 +126,7 @@ double shareOf(const FieldRecord& record, const FieldQuery& query, const LookUp&
     const RecordAccess marked(record, none, slots);
     const kernels::Volume& v = record.volumes[std::size_t(look.volume)];
     const double ofNeighbours =
-        double(kernels::neighboursIrradiance(marked, v, look.cage, query.normal).x) / double(kernels::kPi);
+        double(kernels::neighboursAnswer(marked, v, look.cage, query.normal).irradiance.x) / double(kernels::kPi);
     const double lacking = double(kernels::kDoubtful) - double(w.weightSum);
     return (share + lacking * ofNeighbours) / double(kernels::kDoubtful);
 }
