@@ -16,9 +16,9 @@ struct RenderStats {
     double pictureMs = 0;
 };
 
-/// JSON with the keys probes, activeProbes, raysPerProbe, frames, converged (null with --frames and without a field), remaining (the
-/// estimate behind it, null if there is none), updateMs {trace, shade, blend, total} (medians per update, 0 without
-/// updates), pictureMs, peakMemoryBytes.
+/// JSON with the keys probes, activeProbes, raysPerProbe, frames, converged (null with --frames and without a field),
+/// remaining (the estimate behind it, null if there is none), updateMs {trace, shade, blend, total} (medians per
+/// update, 0 without updates), pictureMs, peakMemoryBytes.
 std::string statsJson(const RenderStats& stats);
 
 /// 0 if there are no values.

@@ -24,14 +24,14 @@ struct BenchPlan {
 /// Wall-clock milliseconds of everything that is compared, measured one after the other within a round, so that a
 /// machine that is slow for a while slows all of them.
 struct BenchRound {
-    double floor = 0;         ///< raw Embree, the rays of the update
-    double robustFloor = 0;   ///< the same with the flag that ProbeGI's tracer sets
-    UpdateTimes update;       ///< all threads
-    double updateAlone = 0;   ///< whole update on one thread
+    double floor = 0;           ///< raw Embree, the rays of the update
+    double robustFloor = 0;     ///< the same with the flag that ProbeGI's tracer sets
+    UpdateTimes update;         ///< all threads
+    double updateAlone = 0;     ///< whole update on one thread
     double updateOfActive = 0;  ///< whole update of a field with probe states (section 6)
-    double query = 0;         ///< the field at every point of the picture
-    double fallbacks = 0;     ///< of them, looked up beyond their eight probes (Field::fallbackQueries)
-    double primaryFloor = 0;  ///< raw Embree, the rays of the picture
+    double query = 0;           ///< the field at every point of the picture
+    double fallbacks = 0;       ///< of them, looked up beyond their eight probes (Field::fallbackQueries)
+    double primaryFloor = 0;    ///< raw Embree, the rays of the picture
     double picture = 0;
 };
 
