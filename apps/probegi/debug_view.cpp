@@ -9,12 +9,15 @@
 #include <vector>
 
 #include "bench/points.h"
+#include "probe_balls.h"
 #include "probegi/measure.h"
 #include "probegi/tracer.h"
 
 namespace probegi::tool {
 
 namespace {
+
+constexpr float kGrey = 0.45f;
 
 // Hues that stay apart however many volumes there are.
 glm::vec3 colourOf(std::size_t volume) {
@@ -36,18 +39,65 @@ glm::vec3 coverageAt(const Field& field, glm::vec3 point) {
     return glm::mix(glm::vec3(0.85f, 0.1f, 0.05f), glm::vec3(0.2f, 0.75f, 0.3f), field.control().coverage(point));
 }
 
+glm::vec3 stateColour(const ProbeState& probe) {
+    switch (probe.activity()) {
+        case ProbeActivity::uninitialized:
+            return {0.9f, 0.2f, 0.9f};
+        case ProbeActivity::off:
+            return {0.94f, 0.25f, 0.21f};
+        case ProbeActivity::sleeping:
+            return {0.31f, 0.49f, 1.0f};
+        case ProbeActivity::newlyAwake:
+        case ProbeActivity::newlyVigilant:
+            return {0.95f, 0.77f, 0.19f};
+        case ProbeActivity::awake:
+            return {0.95f, 0.5f, 0.1f};
+        case ProbeActivity::vigilant:
+            return {0.21f, 0.77f, 0.42f};
+    }
+    return {};
+}
+
+glm::vec3 offsetColour(const ProbeState& probe) {
+    const glm::vec3 share = glm::abs(probe.offset());
+    const float most = std::max({share.x, share.y, share.z}) / 0.45f;
+    return glm::mix(glm::vec3(0.85f), glm::vec3(0.95f, 0.35f, 0.05f), std::sqrt(std::min(most, 1.0f)));
+}
+
 float shadeOf(const Surface& surface, const Ray& ray) {
     return 0.4f + 0.6f * std::abs(glm::dot(surface.shadingNormal, ray.direction));
 }
 
+// All probes as balls; those that are off stand in walls.
+Result<std::vector<Ball>> probeBalls(const DebugView& view, const Field& field) {
+    const auto stored = field.read();
+    if (!stored) return stored.error();
+    std::vector<Ball> balls;
+    int slot = 0;
+    for (const VolumeDesc& volume : field.desc().volumes) {
+        const float radius = kBallRadius * std::min({volume.spacing.x, volume.spacing.y, volume.spacing.z});
+        for (const int end = slot + probeCount(volume); slot < end; ++slot) {
+            const ProbeState& probe = stored->state(slot);
+            balls.push_back({field.control().probePosition(slot), radius, view.ball(probe),
+                             probe.activity() == ProbeActivity::off});
+        }
+    }
+    return balls;
+}
+
+// Colours, and the distances of what is seen.
 Result<void> drawRows(const DebugView& view, const Field& field, const Tracer& tracer, std::span<const Ray> rays,
-                      std::span<glm::vec3> pixels) {
+                      std::span<glm::vec3> pixels, std::span<glm::vec3> depth) {
     std::vector<Hit> hits(rays.size());
     std::vector<Surface> surfaces(rays.size());
     if (auto hit = tracer.closestHits(rays, hits); !hit) return hit;
     if (auto found = tracer.surfaces(rays, hits, surfaces); !found) return found;
     for (std::size_t i = 0; i < rays.size(); ++i)
-        if (hits[i].valid()) pixels[i] = view.colour(field, surfaces[i].position) * shadeOf(surfaces[i], rays[i]);
+        if (hits[i].valid()) {
+            const glm::vec3 colour = view.colour ? view.colour(field, surfaces[i].position) : glm::vec3(kGrey);
+            pixels[i] = colour * shadeOf(surfaces[i], rays[i]);
+            depth[i] = glm::vec3(hits[i].distance);
+        }
     return {};
 }
 
@@ -55,8 +105,15 @@ Result<void> drawRows(const DebugView& view, const Field& field, const Tracer& t
 
 std::span<const DebugView> debugViews() {
     static constexpr DebugView kViews[] = {
-        {"volumes", "which volume answers, each in a colour of its own, blended by their shares", false, volumesAt},
-        {"coverage", "green where the volumes cover a point, red where they do not", false, coverageAt}};
+        {"volumes", "which volume answers, each in a colour of its own, blended by their shares", false, volumesAt,
+         nullptr},
+        {"coverage", "green where the volumes cover a point, red where they do not", false, coverageAt, nullptr},
+        {"states",
+         "the probes: green those that surfaces use (vigilant), orange awake for what moves, yellow newly so, blue "
+         "asleep, red off; see --probe-states",
+         true, nullptr, stateColour},
+        {"offsets", "the probes where they stand, the redder the farther from the grid; see --relocation", true,
+         nullptr, offsetColour}};
     return kViews;
 }
 
@@ -73,13 +130,20 @@ Result<HdrImage> drawDebugView(const DebugView& view, const Field& field, const 
     image.width = width;
     image.height = height;
     image.pixels.assign(std::size_t(width) * std::size_t(height), glm::vec3(0.0f));
+    HdrImage depth = image;
     const std::vector<Ray> rays = primaryRays(camera, width, height);
     for (std::size_t begin = 0; begin < rays.size(); begin += kBatch) {
         const std::size_t count = std::min(kBatch, rays.size() - begin);
-        if (auto drawn = drawRows(view, field, tracer, std::span(rays).subspan(begin, count),
-                                  std::span(image.pixels).subspan(begin, count));
+        if (auto drawn =
+                drawRows(view, field, tracer, std::span(rays).subspan(begin, count),
+                         std::span(image.pixels).subspan(begin, count), std::span(depth.pixels).subspan(begin, count));
             !drawn)
             return drawn.error();
+    }
+    if (view.ball) {
+        const auto balls = probeBalls(view, field);
+        if (!balls) return balls.error();
+        drawBalls(image, std::move(depth), camera, *balls);
     }
     return linearFromDisplay(image);
 } catch (const std::bad_alloc&) {

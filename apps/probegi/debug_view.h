@@ -7,15 +7,18 @@
 #include "probegi/field.h"
 #include "probegi/image.h"
 #include "probegi/scene.h"
+#include "probegi/snapshot.h"
 
 namespace probegi::tool {
 
-/// A picture of what a field does at the surfaces that a camera sees: --debug NAME. A new one is a row of debugViews().
+/// A picture of what a field does at the surfaces that a camera sees, or of its probes as balls: --debug NAME. A new
+/// one is a row of debugViews(). Colours are display values, 0..1.
 struct DebugView {
     const char* name;
     const char* help;
     bool needsLight;                                     ///< the probes must have been updated
-    glm::vec3 (*colour)(const Field&, glm::vec3 point);  ///< display values, 0..1
+    glm::vec3 (*colour)(const Field&, glm::vec3 point);  ///< of a surface; null: grey
+    glm::vec3 (*ball)(const ProbeState&);                ///< of a probe; null: probes are not shown
 };
 
 std::span<const DebugView> debugViews();

@@ -47,6 +47,14 @@ bool isResult(const std::string& option) {
     return option == "-o" || option == "--heatmap";
 }
 
+// The file, or the first of --animate: "a%02d.png" is "a00.png" then.
+std::string firstFile(std::string name) {
+    const std::size_t begin = name.find('%');
+    if (begin == std::string::npos) return name;
+    const std::size_t end = name.find('d', begin), digits = std::size_t(std::stoi(name.substr(begin + 1)));
+    return name.replace(begin, end + 1 - begin, std::string(digits, '0'));
+}
+
 TEST(Readme, EveryLineOfItsToolBlockWorks) {
     const TemporaryFolder folder;
     const std::vector<Words> commands = commandsOfReadme();
@@ -61,7 +69,7 @@ TEST(Readme, EveryLineOfItsToolBlockWorks) {
         EXPECT_EQ(run.exitCode, 0) << run.err;
         for (std::size_t i = 0; i + 1 < words.size(); ++i)
             if (isResult(words[i])) {
-                EXPECT_TRUE(std::filesystem::exists(folder.file(words[i + 1])));
+                EXPECT_TRUE(std::filesystem::exists(folder.file(firstFile(words[i + 1]))));
             }
     }
     for (const char* command : {"scenes", "info", "render", "compare", "report", "bench", "devices"})

@@ -127,6 +127,26 @@ TEST(Render, DebugViewsShowVolumesAndWhatTheyCover) {
     EXPECT_GT(mean(away), 0.01);
 }
 
+TEST(Render, DebugViewsShowProbesByWhatTheyDo) {
+    const auto count = [](const HdrImage& image, const auto& is) {
+        return std::count_if(image.pixels.begin(), image.pixels.end(), is);
+    };
+    const auto blue = [](glm::vec3 p) { return p.z > 2 * p.x && p.z > 1.5f * p.y; };
+    const auto green = [](glm::vec3 p) { return p.y > 2 * p.x && p.y > 2 * p.z; };
+    const auto red = [](glm::vec3 p) { return p.x > 2 * p.y && p.x > 2 * p.z; };
+    const std::vector<std::string> states{"--debug", "states", "--probes", "10x10x10", "--frames", "1"};
+    const HdrImage all = render(states);
+    EXPECT_GT(count(all, green), 10);
+    EXPECT_EQ(count(all, blue), 0) << "nobody sleeps";
+    std::vector<std::string> some = states;
+    some.insert(some.end(), {"--probe-states", "on"});
+    EXPECT_GT(count(render(some), blue), 0);
+    std::vector<std::string> offsets{"--debug", "offsets", "--probes", "10x10x10", "--frames", "1"};
+    EXPECT_EQ(count(render(offsets), red), 0) << "all on the grid";
+    offsets.insert(offsets.end(), {"--relocation", "on"});
+    EXPECT_GT(count(render(offsets), red), 0);
+}
+
 TEST(Render, UntilConverged) {
     EXPECT_GT(mean(render({"--probes", "6x6x6", "--rays", "32"}, "builtin:furnace")), 0);
 }
