@@ -41,6 +41,7 @@ std::string differenceTable(const std::vector<MeasuredScene>& scenes, const char
 }
 
 std::string differenceTables(const std::vector<MeasuredScene>& scenes) {
+    if (scenes.empty()) return {};
     const auto whole = [](const tool::MethodResult& method) { return method.whole.difference; };
     const auto indirect = [](const tool::MethodResult& method) { return method.indirectOnly; };
     return differenceTable(scenes, "Distance from the reference, all light", whole, &tool::RenderedScene::noiseFloor) +
@@ -59,6 +60,7 @@ std::string ratioRow(const std::string& scene, const char* name, const tool::Fie
 }
 
 std::string ratioTable(const std::vector<MeasuredScene>& scenes) {
+    if (scenes.empty()) return {};
     std::string text =
         "### Irradiance at the probes, field over reference\n\n"
         "| scene | field | updates | converged | 5th percentile | median | 95th percentile | probes |\n"
@@ -73,6 +75,7 @@ std::string ratioTable(const std::vector<MeasuredScene>& scenes) {
 }
 
 std::string basisTable(const std::vector<MeasuredScene>& scenes) {
+    if (scenes.empty()) return {};
     std::string text =
         "### What the numbers rest on\n\n"
         "| scene | probes | samples a pixel | noise of the picture | probes compared | left out: in walls | "
@@ -85,6 +88,7 @@ std::string basisTable(const std::vector<MeasuredScene>& scenes) {
 }
 
 std::string leakTable(const std::vector<LeakResult>& leaks) {
+    if (leaks.empty()) return {};
     std::string text =
         "### Light in the sealed room of `builtin:dark-room`, over that in the sunlit room\n\n"
         "| wall | leaking, mean | leaking, worst | moments, mean | moments, worst | relocated, mean | "

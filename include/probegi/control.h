@@ -69,8 +69,8 @@ struct FieldDesc {
     int emitterSamples = 4;
     /// Probes leave walls, and keep a distance from surfaces, by up to 0.45 of the spacing along each axis (section 5).
     /// Done once for each probe, before its first update, by the static geometry: see FieldControl::setMoving. Traced
-    /// updates place probes with rays of their own (384 a probe); where the caller traces the rays, those of the first
-    /// six updates do, and no look-up uses a probe before it is placed.
+    /// updates place probes with rays of their own (six times 128 a probe); where the caller traces the rays, those of
+    /// the first six updates do, and no look-up uses a probe before it is placed.
     bool relocation = false;
     /// Probes that no surface uses are not updated, and no look-up uses them (section 6): in open air, in solid walls,
     /// in the void. Things that move, and points in the air that are asked for, must be announced: see
