@@ -9,7 +9,7 @@
 KERNELS_BEGIN
 
 // How far in front of a volume's faces its nearest probes still know the light, in cells; one cell farther they know
-// nothing. Up to half a cell the field is as accurate as between probes (docs/accuracy.md, "Several volumes").
+// nothing. Half a cell is what the tool's warning about surfaces beyond a grid takes for harmless, too.
 KERNEL_CONST float kCoveredBeyond = 0.5f;
 
 // Cells from the faces of a box inwards, on the axis where that is least; negative: outside. All in cells: the point,
