@@ -21,6 +21,7 @@ KERNEL_FN Volume volumeOfRank(Access, int rank) {
     v.phase = ivec3(rank, 0, 2);
     v.firstSlot = 400 * rank;
     v.turned = rank;
+    v.relocated = rank & 1;
     v.orientation = vec4(0.0f, 0.28f, 0.0f, 0.96f);
     return v;
 }
