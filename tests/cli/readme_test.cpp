@@ -33,6 +33,9 @@ Words quick(Words words) {
     const std::map<std::string, Words> more{
         {"render", reference ? Words{"--size", "32x18"}
                              : Words{"--size", "32x18", "--probes", "4x4x4", "--rays", "32", "--frames", "2"}},
+        {"audit",
+         {"--size", "32x18", "--probes", "4x4x4", "--rays", "32", "--frames", "2", "--points", "256", "--truth-samples",
+          "4"}},
         {"report",
          {"--size", "32x18", "--spp", "1", "--probes", "4x4x4", "--rays", "32", "--frames", "2", "--ratio-probes",
           "4"}},
@@ -44,7 +47,7 @@ Words quick(Words words) {
 }
 
 bool isResult(const std::string& option) {
-    return option == "-o" || option == "--heatmap";
+    return option == "-o" || option == "--heatmap" || option == "--picture";
 }
 
 // The file, or the first of --animate: "a%02d.png" is "a00.png" then.
@@ -72,7 +75,7 @@ TEST(Readme, EveryLineOfItsToolBlockWorks) {
                 EXPECT_TRUE(std::filesystem::exists(folder.file(firstFile(words[i + 1]))));
             }
     }
-    for (const char* command : {"scenes", "info", "render", "compare", "report", "bench", "devices"})
+    for (const char* command : {"scenes", "info", "render", "compare", "audit", "report", "bench", "devices"})
         EXPECT_GE(seen[command], 1) << command << " is not in the README";
 }
 
