@@ -227,7 +227,9 @@ TEST(LeakAudit, canBeCancelled) {
     desc.threads = 1;
     desc.progress = [](const ProgressReport&) { return false; };
     const Context impatient = *Context::create(desc);
-    const auto audit = auditLeaks(impatient, rooms.scene, rooms.pose, *rooms.tracer, field);
+    AuditDesc longEnough;  // progress is told ten times a second
+    longEnough.points = 1 << 18;
+    const auto audit = auditLeaks(impatient, rooms.scene, rooms.pose, *rooms.tracer, field, longEnough);
     ASSERT_FALSE(audit);
     EXPECT_EQ(audit.error().code, ErrorCode::cancelled);
 }
