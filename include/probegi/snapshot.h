@@ -38,7 +38,7 @@ struct ProbeState {
 
     ProbeActivity activity() const noexcept { return ProbeActivity(placement & 7u); }
     /// From the probe's place in the lattice, along the volume's axes, in shares of its spacing, -0.5..0.5.
-    glm::vec3 offset() const noexcept;
+    PROBEGI_API glm::vec3 offset() const noexcept;
 
     bool operator==(const ProbeState&) const = default;
 };
