@@ -48,8 +48,10 @@ TEST_F(AccuracyPage, missingPageIsAnError) {
 }
 
 TEST(AccuracyTables, leakInPercentAndCentimetres) {
-    const std::string text = accuracyTables({}, {{0.05f, {0.5, 0.75}, {0.004, 0.0061}, {0.0045, 0.0065}, {0.005, 0.007}}}, 2);
-    EXPECT_THAT(text, HasSubstr("| 5 cm | 50.00 % | 75.00 % | 0.400 % | 0.610 % | 0.450 % | 0.650 % | 0.500 % | 0.700 % |"));
+    const std::string text =
+        accuracyTables({}, {{0.05f, {0.5, 0.75}, {0.004, 0.0061}, {0.0045, 0.0065}, {0.005, 0.007}}}, 2);
+    EXPECT_THAT(text,
+                HasSubstr("| 5 cm | 50.00 % | 75.00 % | 0.400 % | 0.610 % | 0.450 % | 0.650 % | 0.500 % | 0.700 % |"));
 }
 
 // Every table has both ways of filling a field, the number of probes behind the medians, and whether it converged.
