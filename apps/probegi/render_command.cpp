@@ -200,6 +200,7 @@ void addAnimationOptions(CLI::App& command, RenderOptions& options) {
                         ->check(parsedBy(parseFrameTimes))
                         ->group(kGroup);
     animate->excludes(command.get_option("--time-of-scene"));
+    animate->excludes(command.get_option("--debug"));
     command
         .add_option("--updates-per-frame", options.updatesPerFrame,
                     fmt::format("real-time updates of the probes from one picture to the next, 1 to 1000 (default {})",

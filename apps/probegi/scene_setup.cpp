@@ -153,7 +153,7 @@ Result<Volumes> makeVolumes(const SceneOptions& options, const Scene& scene, con
 
 // A box around all probes, with the first volume's cells.
 VolumeDesc aroundAll(const Volumes& volumes) {
-    if (volumes.size() == 1) return volumes[0];
+    if (volumes.size() == 1 && volumes[0].orientation == VolumeDesc{}.orientation) return volumes[0];
     Bounds all{volumes[0].origin, volumes[0].origin};
     for (const VolumeDesc& v : volumes)
         for (int corner = 0; corner < 8; ++corner) {
@@ -163,6 +163,7 @@ VolumeDesc aroundAll(const Volumes& volumes) {
         }
     VolumeDesc box = volumes[0];
     box.origin = all.lower;
+    box.orientation = VolumeDesc{}.orientation;
     box.counts = glm::ivec3(glm::ceil((all.upper - all.lower) / box.spacing)) + 1;
     return box;
 }

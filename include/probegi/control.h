@@ -168,7 +168,7 @@ public:
     std::span<const ProbeTask> tasks() const noexcept;
     /// Chooses the probes of all coming updates, by slot, in any order; empty: all of them, as at first. Others keep
     /// their contents; a probe that was never updated is black, and its first update replaces all of it. converge()
-    /// always updates all probes. Errors: invalidArgument (a slot that is not there, or twice), outOfMemory.
+    /// always updates all that are active. Errors: invalidArgument (a slot that is not there, or twice), outOfMemory.
     Result<void> setTasks(std::span<const std::uint32_t> slots);
 
     /// Unit directions of the coming update's rays, raysPerProbe of them, shared by all probes: a spherical Fibonacci

@@ -23,8 +23,8 @@ struct SlotRange {
 /// What a probe keeps from update to update besides its maps.
 struct ProbeState {
     /// Share of its rays' hits that were on backs and indicate solid geometry, 0..1; above 0.3 the probe stands in a
-    /// wall and is not used; 2: it has entered its volume and awaits its first update. Backs of surfaces with two sides
-    /// do not count while a free line leads from the probe, by way of its neighbours, to one that sees fronts.
+    /// wall and is not used; 2: it is new to its place or not updated at all, and not used. Backs of surfaces with two
+    /// sides do not count while a free line leads from the probe, by way of its neighbours, to one that sees fronts.
     float backfaceShare = 0;
     float backs = 0;              ///< share of its rays that hit backs, whatever the material, 0..1
     float fronts = 0;             ///< share of its rays that hit fronts, 0..1

@@ -90,9 +90,12 @@ Result<void> FieldControl::Impl::watch(std::span<const Bounds> moving, std::span
     if (auto ok = checkBounds(moving).and_then([&] { return checkBounds(media); }); !ok) return ok;
     ProbeStates next = states;
     next.watch(moving, media);
-    next.wake(volumes, settings, desc.rules);
+    if (next.wake(volumes, settings, desc.rules)) {
+        std::vector<ProbeTask> listed = tasksOf(volumes, next, chosen);
+        tasks.swap(listed);
+        taskList = chosen.empty() && next.allAreTasks() ? 0 : ++taskLists;
+    }
     std::swap(states, next);
-    if (states.changed()) listTasks();
     return {};
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, "no memory for the bounds of what moves");
@@ -329,8 +332,10 @@ Result<void> FieldControl::setTasks(std::span<const std::uint32_t> slots) try {
         taken[slot] = true;
     }
     std::vector<std::uint32_t> chosen(slots.begin(), slots.end());
+    std::vector<ProbeTask> listed = tasksOf(m_impl->volumes, m_impl->states, chosen);
     m_impl->chosen.swap(chosen);
-    m_impl->listTasks();
+    m_impl->tasks.swap(listed);
+    m_impl->taskList = m_impl->chosen.empty() && m_impl->states.allAreTasks() ? 0 : ++m_impl->taskLists;
     return {};
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, "no memory for the list of probes");

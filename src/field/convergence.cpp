@@ -75,7 +75,12 @@ void Convergence::advance(std::span<const float> brightness, std::span<const flo
 void Convergence::observe(std::span<const float> brightness, std::span<const float> backfaceShares) {
     if (m_last.empty()) {
         makeRegions(backfaceShares);
-    } else {
+        if (m_regions.empty()) {
+            // No probe counts: all stand in walls, or no surface uses one.
+            m_converged = true;
+            m_remaining = 0;
+        }
+    } else if (!m_regions.empty()) {
         measureChanges(brightness, m_averaged > 0 ? kDim : kBlack);
         m_averaged > 0 ? checkAverage() : followBounces();
     }

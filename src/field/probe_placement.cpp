@@ -39,6 +39,8 @@ public:
     bool isNew(const ProbeTask& task) const {
         return kernels::stateOf(found.placements[task.slot]) == kernels::kUninitialized;
     }
+    /// Forgets looks of an earlier placing that was not ended: these are all.
+    void begin(const ProbeTask& task) { found.placements[task.slot] &= ~(kernels::kLookBits | kernels::kInsideBit); }
     glm::vec3 positionOf(const ProbeTask& task) const {
         const kernels::Volume& v = m_frame.volumes[task.volume];
         return kernels::placedPosition(v, kernels::probeCell(v, int(task.slot)), found.placements[task.slot]);
@@ -52,11 +54,12 @@ public:
         int counted = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const bool hit = rays[i].distance < kernels::kMissDistance;
+            // Within the bounds of what moves may be static surfaces too, which stay when it goes.
+            if (hit && !kernels::hitBack(rays[i].distance)) mark(rays[i].position, rays[i].normal);
             if (hit && moves(rays[i].position)) continue;
             ++counted;
             kernels::addToPlaceSight(sight, kernels::toVolumeDirection(v, directions[i]), rays[i].distance,
                                      rays[i].solid);
-            if (hit && !kernels::hitBack(rays[i].distance)) mark(rays[i].position, rays[i].normal);
         }
         placement = (placement & ~kernels::kInsideBit) + kernels::kOneLook;
         if (kernels::isOff(sight.seen, counted, m_rules)) placement |= kernels::kInsideBit;
@@ -128,7 +131,9 @@ Result<FoundPlaces> placeProbes(const Context& context, const UpdateFrame& frame
     std::vector<ProbeTask> tasks;
     for (std::uint32_t slot = 0; slot < placements.size(); ++slot) {
         const ProbeTask task{{}, slot, std::uint32_t(volumeOf(frame.volumes, int(slot)))};
-        if (placing.isNew(task)) tasks.push_back(task);
+        if (!placing.isNew(task)) continue;
+        placing.begin(task);
+        tasks.push_back(task);
     }
     std::vector<glm::vec3> directions;
     for (std::uint32_t i = 0; i < kernels::kRelocationRays; ++i)

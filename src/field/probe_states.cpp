@@ -29,7 +29,8 @@ void ProbeStates::restart() {
     std::fill(m_placements.begin(), m_placements.end(), watched() ? kernels::kUninitialized : kernels::kVigilant);
     m_new = watched() ? m_placements.size() : 0;
     if (m_states) m_near.assign(m_placements.size(), 0);
-    m_renewed.clear();
+    // Of a probe that was never updated look-ups must know that it was not.
+    m_forgets.assign(watched() ? m_placements.size() : 0, kForgets);
     m_changed = watched();
 }
 
@@ -42,25 +43,35 @@ bool ProbeStates::isTask(std::size_t slot) const noexcept {
 }
 
 bool ProbeStates::allAreTasks() const noexcept {
-    if (!m_states) return true;
+    if (!watched()) return true;
     for (std::size_t slot = 0; slot < m_placements.size(); ++slot)
         if (!isTask(slot)) return false;
     return true;
 }
 
-void ProbeStates::renew(std::size_t slot) {
-    m_renewed.push_back(std::uint32_t(slot));
-    m_changed = true;
+std::vector<std::uint32_t> ProbeStates::renewed() const {
+    std::vector<std::uint32_t> slots;
+    for (std::size_t slot = 0; slot < m_forgets.size(); ++slot)
+        if (m_forgets[slot] != kKeeps) slots.push_back(std::uint32_t(slot));
+    return slots;
 }
 
-void ProbeStates::happen(std::size_t slot, std::uint32_t event) {
+bool ProbeStates::happen(std::size_t slot, std::uint32_t event) noexcept {
     const std::uint32_t before = kernels::stateOf(m_placements[slot]);
-    const std::uint32_t after = kernels::nextProbeState(before, event);
-    if (after == before) return;
+    std::uint32_t after = kernels::nextProbeState(before, event);
+    if (after == before) return false;
+    if (before == kernels::kUninitialized) --m_new;
+    std::uint8_t& forgets = m_forgets[slot];
+    if (kernels::isUnused(after)) {
+        if (forgets == kKeeps) forgets = kFellAsleep;
+    } else if (forgets == kFellAsleep) {
+        // It slept between two updates only, and knows all it knew.
+        forgets = kKeeps;
+        if (after == kernels::kNewlyAwake) after = kernels::kAwake;
+    }
     m_placements[slot] = kernels::withState(m_placements[slot], after);
     m_changed = true;
-    if (before == kernels::kUninitialized) --m_new;
-    if (kernels::isUnused(after)) renew(slot);
+    return true;
 }
 
 void ProbeStates::enter(const kernels::Volume& volume, glm::ivec3 cells) {
@@ -70,6 +81,7 @@ void ProbeStates::enter(const kernels::Volume& volume, glm::ivec3 cells) {
         std::uint32_t& placement = m_placements[std::size_t(slot)];
         if (!isNew(std::size_t(slot))) ++m_new;
         placement = kernels::kUninitialized;
+        m_forgets[std::size_t(slot)] = kForgets;
         m_changed = true;
     }
 }
@@ -79,8 +91,9 @@ void ProbeStates::watch(std::span<const Bounds> moving, std::span<const Bounds> 
     m_media.assign(media.begin(), media.end());
 }
 
-void ProbeStates::wake(std::span<const kernels::Volume> volumes, const FieldSettings& settings, FieldRules rules) {
-    if (!m_states) return;
+bool ProbeStates::wake(std::span<const kernels::Volume> volumes, const FieldSettings& settings,
+                       FieldRules rules) noexcept {
+    if (!m_states || m_new == m_placements.size()) return false;
     std::fill(m_near.begin(), m_near.end(), std::uint8_t(0));
     const int number = rules == FieldRules::paper ? kernels::kRulesPaper : kernels::kRulesMeasured;
     for (const kernels::Volume& volume : volumes) {
@@ -89,12 +102,14 @@ void ProbeStates::wake(std::span<const kernels::Volume> volumes, const FieldSett
             for (const Bounds& box : *boxes)
                 markNear(volume, kernels::boxInVolume(volume, box.lower, box.upper), reach);
     }
+    bool changed = false;
     for (std::size_t slot = 0; slot < m_placements.size(); ++slot)
-        happen(slot, m_near[slot] ? kernels::kMoverNear : kernels::kMoverGone);
+        changed |= happen(slot, m_near[slot] ? kernels::kMoverNear : kernels::kMoverGone);
+    return changed;
 }
 
 // Of the cells around the box, those that kernels::isNearBox() says.
-void ProbeStates::markNear(const kernels::Volume& volume, const kernels::Box& box, glm::vec3 reach) {
+void ProbeStates::markNear(const kernels::Volume& volume, const kernels::Box& box, glm::vec3 reach) noexcept {
     const glm::vec3 last(volume.counts - 1);
     const glm::vec3 from = glm::floor((box.lower - reach - volume.origin) * volume.inverseSpacing);
     const glm::vec3 to = glm::ceil((box.upper + reach - volume.origin) * volume.inverseSpacing);
@@ -107,17 +122,19 @@ void ProbeStates::markNear(const kernels::Volume& volume, const kernels::Box& bo
                     m_near[std::size_t(kernels::probeSlot(volume, {x, y, z}))] = 1;
 }
 
-void ProbeStates::placed(std::span<const std::uint32_t> placements, std::span<const std::uint8_t> surfaces) {
+void ProbeStates::placed(std::span<const std::uint32_t> placements, std::span<const std::uint8_t> surfaces) noexcept {
     for (std::size_t slot = 0; slot < m_placements.size(); ++slot) {
         if (!isNew(slot)) {
             if (surfaces[slot]) happen(slot, kernels::kSurfaceFound);
             continue;
         }
         const std::uint32_t word = placements[slot];
-        if (word == m_placements[slot]) continue;  // no task of this update
+        const bool looked = word != m_placements[slot];  // else it was no task of this update
         const bool used = surfaces[slot] || (word & kernels::kSurfaceBit) != 0;
         m_placements[slot] = used ? word | kernels::kSurfaceBit : word;
-        renew(slot);  // what it knows, it saw from elsewhere
+        m_changed = true;
+        if (!looked) continue;
+        m_forgets[slot] = kForgets;  // what it knows, it saw from elsewhere
         if (kernels::looksOf(word) < kernels::looksOfPlacement(m_relocation)) continue;
         const bool inside = (word & kernels::kInsideBit) != 0;
         m_placements[slot] &= ~kernels::kPlacingBits;
@@ -138,21 +155,28 @@ void ProbeStates::updated(std::span<const ProbeTask> tasks) noexcept {
 
 void ProbeStates::replace(SlotRange slots, std::span<const std::uint32_t> placements) {
     if (!watched()) return;
-    std::copy(placements.begin(), placements.end(), m_placements.begin() + slots.first);
+    const auto first = std::size_t(slots.first);
+    for (std::size_t i = 0; i < placements.size(); ++i) {
+        std::uint32_t word = placements[i];
+        // Who never sleeps has no one who would wake it.
+        if (!m_states && kernels::stateOf(word) != kernels::kUninitialized)
+            word = kernels::withState(word, kernels::kVigilant);
+        m_placements[first + i] = word;
+        m_forgets[first + i] = kKeeps;
+    }
     m_new = 0;
     for (std::size_t slot = 0; slot < m_placements.size(); ++slot) m_new += isNew(slot) ? 1 : 0;
-    m_renewed.clear();
     m_changed = true;
 }
 
 void ProbeStates::told() noexcept {
-    m_renewed.clear();
+    std::fill(m_forgets.begin(), m_forgets.end(), kKeeps);
     m_changed = false;
 }
 
 std::size_t ProbeStates::bytes() const noexcept {
     return m_placements.capacity() * sizeof(m_placements[0]) + m_near.capacity() +
-           (m_moving.capacity() + m_media.capacity()) * sizeof(Bounds) + m_renewed.capacity() * sizeof(m_renewed[0]);
+           (m_moving.capacity() + m_media.capacity()) * sizeof(Bounds) + m_forgets.capacity();
 }
 
 }  // namespace probegi

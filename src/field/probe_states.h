@@ -39,10 +39,11 @@ public:
     std::span<const Bounds> moving() const noexcept { return m_moving; }
     std::span<const Bounds> media() const noexcept { return m_media; }
     /// After watch(), a scroll or a placement: wakes probes near moving things and puts others to sleep (Listing 5).
-    void wake(std::span<const kernels::Volume> volumes, const FieldSettings& settings, FieldRules rules);
+    /// Returns whether any did.
+    bool wake(std::span<const kernels::Volume> volumes, const FieldSettings& settings, FieldRules rules) noexcept;
     /// After placeProbes(): takes over the words, and ends the placement of probes whose iterations are done.
     /// `surfaces`: by slot, whether a ray found a static surface that uses the probe.
-    void placed(std::span<const std::uint32_t> placements, std::span<const std::uint8_t> surfaces);
+    void placed(std::span<const std::uint32_t> placements, std::span<const std::uint8_t> surfaces) noexcept;
     /// Probes were updated.
     void updated(std::span<const ProbeTask> tasks) noexcept;
     /// Words of a snapshot.
@@ -50,21 +51,23 @@ public:
 
     /// What the backend has not been told yet: whether words have changed, and which probes forget all they know.
     bool changed() const noexcept { return m_changed; }
-    std::span<const std::uint32_t> renewed() const noexcept { return m_renewed; }
+    std::vector<std::uint32_t> renewed() const;
     void told() noexcept;
 
     std::size_t bytes() const noexcept;
 
 private:
-    void happen(std::size_t slot, std::uint32_t event);
-    void renew(std::size_t slot);
-    void markNear(const kernels::Volume& volume, const kernels::Box& box, glm::vec3 reach);
+    /// What a probe will have forgotten once the backend is told.
+    enum Forgetting : std::uint8_t { kKeeps, kFellAsleep, kForgets };
+
+    bool happen(std::size_t slot, std::uint32_t event) noexcept;
+    void markNear(const kernels::Volume& volume, const kernels::Box& box, glm::vec3 reach) noexcept;
 
     bool m_relocation, m_states;
     std::vector<std::uint32_t> m_placements;
     std::vector<std::uint8_t> m_near;  // by slot: something that moves is near
     std::vector<Bounds> m_moving, m_media;
-    std::vector<std::uint32_t> m_renewed;
+    std::vector<std::uint8_t> m_forgets;  // Forgetting, by slot
     std::size_t m_new = 0;
     bool m_changed = false;
 };

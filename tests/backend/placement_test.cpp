@@ -5,6 +5,7 @@
 #include <set>
 
 #include "backend/every_backend.h"
+#include "support/analytic_tracer.h"
 #include "support/probes.h"
 
 namespace probegi::test {
@@ -144,6 +145,95 @@ TEST_P(BackendPlacement, whatMovesWakesProbesAndLetsThemSleepAgain) {
     EXPECT_EQ(probeBackfaceShare(field, int(middle)), 2.0f) << "look-ups pass it over";
     ASSERT_TRUE(field.control().setMedia({&box, 1}));
     EXPECT_EQ(field.control().activity(int(middle)), ProbeActivity::newlyAwake) << "fog is asked for too";
+}
+
+// An engine that sets its bounds object by object, or clears them first, lets probes sleep between two updates only.
+TEST_P(BackendPlacement, probesThatSleepBetweenUpdatesKeepWhatTheyKnow) {
+    Field field = makeField(setup(false, true));
+    const Bounds box{{8.3f, 4.3f, 8.3f}, {8.6f, 4.6f, 8.6f}};
+    const int middle = 8 + 12 * (4 + 9 * 8);
+    ASSERT_TRUE(field.control().setMoving({&box, 1}));
+    update(field, 4);
+    ASSERT_EQ(field.control().activity(middle), ProbeActivity::awake);
+    const FieldSnapshot before = readProbe(field, middle);
+    ASSERT_TRUE(field.control().setMoving({}));
+    ASSERT_TRUE(field.control().setMoving({&box, 1}));
+    EXPECT_EQ(field.control().activity(middle), ProbeActivity::awake);
+    ASSERT_TRUE(field.control().setTasks(std::vector<std::uint32_t>{0}));
+    update(field);
+    const FieldSnapshot after = readProbe(field, middle);
+    EXPECT_EQ(after.irradiance, before.irradiance) << "it was no task, and forgot nothing";
+    EXPECT_EQ(after.states, before.states);
+}
+
+// A thing that stands on the floor while probes are placed, and goes.
+TEST_P(BackendPlacement, surfacesUnderWhatMovesHaveProbesWhenItIsGone) {
+    Field field = makeField(setup(true, true));
+    const Bounds everything{glm::vec3(-100), glm::vec3(100)};
+    ASSERT_TRUE(field.control().setMoving({&everything, 1}));
+    update(field);
+    ASSERT_TRUE(field.control().setMoving({}));
+    update(field, 3);
+    const auto points = surfaces();
+    for (const glm::vec3& e : ask(field, points)) EXPECT_GT(e.y, 0);
+}
+
+TEST_P(BackendPlacement, aWriteOfSomeProbesLetsTheOthersForget) {
+    Field field = makeField(setup(false, true));
+    const Bounds box{{8.3f, 4.3f, 8.3f}, {8.6f, 4.6f, 8.6f}};
+    const int middle = 8 + 12 * (4 + 9 * 8);
+    ASSERT_TRUE(field.control().setMoving({&box, 1}));
+    update(field, 2);
+    const FieldSnapshot first = readProbe(field, 0);
+    ASSERT_TRUE(field.control().setMoving({}));
+    ASSERT_TRUE(field.write(first));
+    update(field);
+    EXPECT_EQ(probeBackfaceShare(field, middle), 2.0f) << "asleep";
+}
+
+TEST_P(BackendPlacement, aFieldWithoutStatesWakesTheSleepersOfASnapshot) {
+    Field states = makeField(setup(true, true)), all = makeField(setup(true, false));
+    update(states);
+    ASSERT_TRUE(all.write(states.read().value()));
+    EXPECT_EQ(all.control().tasks().size(), std::size_t(probeCount(all.desc())));
+    update(all, 2);
+    EXPECT_EQ(count(all, ProbeActivity::vigilant), probeCount(all.desc()));
+    for (const glm::vec3& e : ask(all, surfaces())) EXPECT_GT(e.y, 0);
+}
+
+TEST_P(BackendPlacement, looksOfTheCallersRaysDoNotDisturbALaterPlacing) {
+    Field field = makeField(setup(true, true)), traced = makeField(setup(true, true));
+    const std::vector<RayDatum> air(field.control().tasks().size() * 64, RayDatum{glm::vec3(1), 1e30f});
+    for (int i = 0; i < 3; ++i) ASSERT_TRUE(field.update(air));
+    update(field), update(traced);
+    EXPECT_EQ(count(field, ProbeActivity::uninitialized), 0);
+    for (int slot = 0; slot < probeCount(field.desc()); ++slot)
+        EXPECT_EQ(field.control().activity(slot) == ProbeActivity::off,
+                  traced.control().activity(slot) == ProbeActivity::off)
+            << slot;
+}
+
+TEST_P(BackendPlacement, whereNoSurfaceIsThereIsNothingToConvergeTo) {
+    FieldSetup s = setup(false, true);
+    s.volumes[0] = {.origin = {4, 4, 8}, .spacing = {0.1f, 0.1f, 0.1f}, .counts = {4, 4, 4}};
+    AnalyticTracer nothing;
+    Field field = makeField(s);
+    const auto done = field.converge(nothing, lighting, 0.1f, 20);
+    ASSERT_TRUE(done) << done.error().message;
+    EXPECT_TRUE(field.control().tasks().empty());
+    EXPECT_TRUE(done->converged);
+    EXPECT_EQ(done->remaining, 0.0f);
+    EXPECT_LT(done->updates, 20);
+}
+
+// Surfaces that stand beyond a volume get the light of its nearest probes, which must not sleep.
+TEST_P(BackendPlacement, surfacesBeyondTheVolumeKeepItsBorderAwake) {
+    FieldSetup s = setup(false, true);
+    s.volumes[0] = {.origin = {7, 3, 7}, .spacing = {0.5f, 0.5f, 0.5f}, .counts = {4, 4, 4}};
+    Field field = makeField(s);
+    update(field, 2);
+    for (const FieldQuery& point : {FieldQuery{{8, 0, 8}, {0, 1, 0}, {0, 1, 0}}, {{12, 4, 8}, {-1, 0, 0}, {-1, 0, 0}}})
+        EXPECT_GT(field.irradiance(point).y, 0);
 }
 
 TEST_P(BackendPlacement, boundsThatAreNoneAreRefused) {

@@ -65,12 +65,13 @@ TEST(UsedProbes, areFew) {
     EXPECT_EQ(paper.highest, ivec3(2, 3, 2));
 }
 
-TEST(UsedProbes, pointsFarFromTheVolumeUseNone) {
+TEST(UsedProbes, outsideTheVolumeTheyAreItsNearestCell) {
     const Volume v = makeVolume(false);
-    const UsedProbes used = usedProbes(v, v.origin - vec3(0.6f, 0, 0), {0, 1, 0}, 0.3f, kRulesMeasured);
-    EXPECT_GT(used.lowest.x, used.highest.x);
-    const UsedProbes near = usedProbes(v, v.origin - vec3(0.4f, 0, 0), {0, 1, 0}, 0.3f, kRulesMeasured);
-    EXPECT_LE(near.lowest.x, near.highest.x) << "the border's probes answer there";
+    for (const float far : {0.4f, 0.6f, 50.0f}) {
+        const UsedProbes used = usedProbes(v, v.origin - vec3(far, -1.25f, -1.1f), {1, 0, 0}, 0.3f, kRulesMeasured);
+        EXPECT_EQ(used.lowest, ivec3(0, 2, 1)) << far;
+        EXPECT_EQ(used.highest, ivec3(2, 3, 2)) << far;
+    }
 }
 
 }  // namespace

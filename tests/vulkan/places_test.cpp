@@ -206,6 +206,14 @@ TEST_F(VulkanPlaces, whatCannotBeIsSaid) {
     engine.run([&](VkCommandBuffer commands) {
         without.recordClear(commands).value();
         field.recordClear(commands).value();
+        // What is listed counts, whatever is set before the update.
+        field.control().setMedia({}).value();
+        field.recordTasks(commands).value();
+        field.control().setTasks(std::vector<std::uint32_t>{0}).value();
+        EXPECT_EQ(field.recordUpdate(commands, {tasks.address, 24 * sizeof(RayDatum)}).error().code,
+                  ErrorCode::invalidArgument)
+            << "rays of one task only";
+        field.control().setMedia(many).value();
         EXPECT_EQ(without.recordTasks(commands).error().code, ErrorCode::invalidArgument);
         EXPECT_EQ(field.recordTasks(commands).error().code, ErrorCode::invalidArgument);
     });

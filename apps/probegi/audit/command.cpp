@@ -61,7 +61,7 @@ Result<Field> makeField(const Backend& backend, const LoadedSetup& setup, const 
     desc.raysPerProbe = options.rays;
     desc.rules = options.rules;
     desc.seed = options.seed;
-    FieldSettings settings;
+    FieldSettings settings = setup.settings;
     if (options.rules == FieldRules::paper) settings.visibilityExponent = kPaperVisibilityExponent;
     settings.guard = options.method == Method::leaky ? LeakGuard::none : LeakGuard::moments;
     return backend.makeField(desc, settings);
@@ -96,6 +96,9 @@ void print(const LeakAudit& audit, const AuditDesc& desc, glm::vec3 origin) {
 
 /// Errors: invalidArgument if a place leaks more than the bound.
 Result<void> judge(const LeakAudit& audit, const AuditOptions& options) {
+    if (options.maxLeakPercent && audit.points == 0)
+        return fail(ErrorCode::invalidArgument,
+                    "no surface lies in the open, so --max-leak has nothing to judge; check the winding of the meshes");
     if (!options.maxLeakPercent || 100 * audit.worst <= *options.maxLeakPercent) return {};
     const auto over = std::count_if(audit.places.begin(), audit.places.end(), [&](const LeakPlace& p) {
         return 100 * std::abs(p.leak) > *options.maxLeakPercent;
@@ -151,7 +154,7 @@ Result<void> audit(const AuditOptions& options) {
     if (!options.json.empty()) {
         nlohmann::ordered_json json = auditJson(*found, desc, setup->scene->origin);
         json["scene"] = options.scene.scene;
-        json["probes"] = probeCount(setup->grid);
+        json["probes"] = probeCount(*setup);
         json["maxLeak"] = options.maxLeakPercent ? nlohmann::ordered_json(*options.maxLeakPercent / 100) : nullptr;
         json["passed"] = judge(*found, options).has_value();
         if (auto written = writeText(options.json, jsonText(json)); !written) return written;

@@ -22,14 +22,12 @@ double millisecondsSince(Clock::time_point start) {
 }
 
 std::vector<Ray> probeRays(const Field& field) {
-    const VolumeDesc& grid = field.desc().volumes[0];
+    const FieldControl& control = field.control();
     std::vector<Ray> rays;
-    rays.reserve(std::size_t(probeCount(grid)) *
-                 (field.control().rayDirections().size() + field.control().fixedRayDirections().size()));
-    for (int probe = 0; probe < probeCount(grid); ++probe)
-        for (const std::span<const glm::vec3> directions :
-             {field.control().rayDirections(), field.control().fixedRayDirections()})
-            for (const glm::vec3& direction : directions) rays.push_back({probePosition(grid, probe), 0.0f, direction});
+    rays.reserve(control.tasks().size() * (control.rayDirections().size() + control.fixedRayDirections().size()));
+    for (const ProbeTask& task : control.tasks())
+        for (const std::span<const glm::vec3> directions : {control.rayDirections(), control.fixedRayDirections()})
+            for (const glm::vec3& direction : directions) rays.push_back({task.origin, 0.0f, direction});
     return rays;
 }
 

@@ -148,8 +148,8 @@ public:
     /// the coming update's tasks in taskBuffer(). recordUpdate() without a scene needs it before each update; that with
     /// a scene does it by itself. Begins and ends with a full barrier, and the list may be read by indirect dispatches
     /// and compute shaders. What FieldControl says of tasks, activities and positions is the lattice's then: the CPU
-    /// does not see what the GPU decides. At most 256 bounds (FieldControl::setMoving, setMedia) count. Errors:
-    /// invalidArgument (the field has neither, or too many bounds), outOfMemory.
+    /// does not see what the GPU decides. Tasks and bounds are those of this call until the update. Errors:
+    /// invalidArgument (the field has neither; over 256 bounds of FieldControl::setMoving and setMedia), outOfMemory.
     Result<void> recordTasks(VkCommandBuffer commands);
     /// 16 words, of which the first is the number of tasks, words 1 to 3 the groups of 64 threads for a thread a task,
     /// 4 to 6 those for a thread a ray (raysPerProbe and fixed rays of each task); then ProbeTask (20 bytes) [task].

@@ -16,8 +16,8 @@
 //     // The same at an axisPoint().
 //     void momentsOnAxis(Access access, Volume v, Int slot, MapPoint at, OUT(Real) mean, OUT(Real) meanSquare)
 //     Real storedBackfaceShare(Access access, Int slot)
-//     Int storedPlacement(Access access, Int slot)           // probe_offset.h; asked only where the volume is
-//     relocated vec3 storedIrradiance(Access access, int slot, MapPoint at)                 // encoded
+//     Int storedPlacement(Access access, Int slot)           // probe_offset.h; of a relocated volume only
+//     vec3 storedIrradiance(Access access, int slot, MapPoint at)                 // encoded
 //
 //     // Visibility of a corner of the cage that another pass found, say in screen space: it multiplies what the guard
 //     // says of the probe. 1 where there is none.

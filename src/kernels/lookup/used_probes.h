@@ -22,16 +22,10 @@ KERNEL_FN int highestUsed(float place, float reach, int count) {
     return int(clamp(floor(place + reach), 0.0f, float(count - 2))) + 1;
 }
 
-// `point` and `normal`: in the world, metres and unit. A point outside the volume uses none: `lowest` is above
-// `highest` then.
+// `point` and `normal`: in the world, metres and unit. Outside the volume its nearest cell answers, however far.
 KERNEL_FN UsedProbes usedProbes(IN(Volume) v, vec3 point, vec3 normal, float tunableBias, int rules) {
     UsedProbes used;
-    used.lowest = ivec3(1);
-    used.highest = ivec3(0);
-    const vec3 inVolume = toVolumePoint(v, point);
-    const vec3 apart = inVolume - clampToVolume(v, inVolume);
-    if (dot(apart, apart) > v.minSpacing * v.minSpacing) return used;
-    const vec3 place = gridCoordinates(v, clampToVolume(v, inVolume));
+    const vec3 place = gridCoordinates(v, clampToVolume(v, toVolumePoint(v, point)));
     const vec3 facing = toVolumeDirection(v, normal);
     const vec3 reach = length(cageBias(facing, facing, v.minSpacing, tunableBias, rules)) * v.inverseSpacing;
     used.lowest = ivec3(lowestUsed(place.x, reach.x, v.counts.x), lowestUsed(place.y, reach.y, v.counts.y),

@@ -252,7 +252,10 @@ void FieldPasses::recordPlaces(const Recorder& recorder, const UpdateFrame& fram
                                const GpuScene* scene, Profiler* profiler) {
     PipelineStore& pipelines = *m_device.impl().pipelines;
     for (const char* shader : {"step_states", "list_tasks", "count_tasks"}) pipelines.get(shader);
-    if (scene) pipelines.get(scene->impl().shader("place_probes"));
+    if (scene)
+        pipelines.get(scene->impl().shader("place_probes"));
+    else
+        pipelines.get("look_around");
     recordSettings(recorder, frame.settings);
     recorder.orderAll();
     std::vector<kernels::GpuBounds> bounds;
@@ -267,7 +270,8 @@ void FieldPasses::recordPlaces(const Recorder& recorder, const UpdateFrame& fram
     const PassScope scope(recorder, m_device.impl(), profiler, "states");
     recorder.bindVolume(set());
     if (scene) recorder.bindScene(scene->impl().set());
-    recorder.push(placesPush(frame, places));
+    m_places = placesPush(frame, places);
+    recorder.push(m_places);
     if (scene && m_hasNew) {
         recorder.dispatchOver(scene->impl().shader("place_probes"), std::uint32_t(m_layout.probes), 1);
         recorder.computeToCompute();
@@ -275,7 +279,7 @@ void FieldPasses::recordPlaces(const Recorder& recorder, const UpdateFrame& fram
     }
     recorder.dispatchOver("step_states", m_layout.probes);
     recorder.computeToCompute();
-    recorder.dispatchOver("list_tasks", placesPush(frame, places).listed);
+    recorder.dispatchOver("list_tasks", m_places.listed);
     recorder.computeToCompute();
     m_listed = true;
 }
@@ -290,9 +294,8 @@ void FieldPasses::recordCounts(const Recorder& recorder, const UpdateFrame& fram
     recorder.orderAll();
 }
 
-void FieldPasses::recordLook(const Recorder& recorder, const UpdateFrame& frame, const PlacesFrame& places,
-                             VkDeviceAddress rayData) {
-    kernels::PlacesPush push = placesPush(frame, places);
+void FieldPasses::recordLook(const Recorder& recorder, VkDeviceAddress rayData) {
+    kernels::PlacesPush push = m_places;  // the bounds and tasks that were listed, whatever came since
     push.rayData = packAddress(rayData);
     recorder.push(push);
     recorder.dispatchIndirect("look_around", m_tasks, offsetof(kernels::GpuTaskCounts, perTask));

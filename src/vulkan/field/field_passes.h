@@ -52,8 +52,7 @@ public:
     /// After recordPlaces(): the sizes of dispatches over the tasks, for callers that trace.
     void recordCounts(const Recorder& recorder, const UpdateFrame& frame);
     /// After recordUpdate() with the caller's rays: they place new probes.
-    void recordLook(const Recorder& recorder, const UpdateFrame& frame, const PlacesFrame& places,
-                    VkDeviceAddress rayData);
+    void recordLook(const Recorder& recorder, VkDeviceAddress rayData);
     /// Clears all probes. From here on, `settings` are what shaders that read the field see.
     void recordClear(const Recorder& recorder, const FieldSettings& settings);
     /// Traces and shades the rays of the tasks, then blends the ray data.
@@ -70,6 +69,7 @@ public:
         m_recordedSettings.reset();
         m_recordedTasks.reset();
         m_recordedChoice.reset();
+        m_listed = false;
         m_hasNew = true;
     }
 
@@ -138,6 +138,7 @@ private:
     std::optional<FieldSettings> m_recordedSettings;
     std::optional<std::uint32_t> m_recordedTasks;   // UpdateFrame::taskList
     std::optional<std::uint32_t> m_recordedChoice;  // PlacesFrame::chosenList
+    kernels::PlacesPush m_places{};                 // of the last recordPlaces()
     bool m_listed = false;                          // the tasks of the coming update are in m_tasks
     bool m_hasNew = true;                           // some probes may await their placement
 };

@@ -51,7 +51,7 @@ Result<void> GpuField::recordClear(VkCommandBuffer commands) {
     return m_impl->recorded("recording the clearing of probes", [&] {
         m_impl->passes.recordClear({m_impl->passes.device().impl(), commands}, m_impl->control.settings());
         m_impl->books().restart();
-        m_impl->tasksRecorded = false;
+        m_impl->listedRays = {};
     });
 }
 
@@ -61,7 +61,7 @@ Result<void> GpuField::recordScroll(VkCommandBuffer commands, int volume, glm::i
         auto placement = orThrow(m_impl->books().scrolledBy(volume, cells));
         m_impl->books().swapPlacement(placement);
         m_impl->passes.place(m_impl->books().volumes);
-        m_impl->tasksRecorded = false;
+        m_impl->listedRays = {};
         m_impl->passes.recordEnter({m_impl->passes.device().impl(), commands}, m_impl->control.settings(), volume,
                                    cells);
     });
@@ -83,7 +83,7 @@ Result<void> GpuField::recordUpdate(VkCommandBuffer commands, const GpuScene& sc
         const Recorder recorder{m_impl->passes.device().impl(), commands};
         const UpdateFrame frame = m_impl->books().comingUpdate();
         if (m_impl->passes.watched()) m_impl->passes.recordPlaces(recorder, frame, m_impl->places(), &scene, profiler);
-        m_impl->tasksRecorded = false;
+        m_impl->listedRays = {};
         m_impl->passes.recordUpdate(recorder, frame, scene, lighting, profiler);
         m_impl->books().advance();
     });
@@ -98,7 +98,7 @@ Result<void> GpuField::recordTasks(VkCommandBuffer commands) {
         const UpdateFrame frame = m_impl->books().comingUpdate();
         m_impl->passes.recordPlaces(recorder, frame, m_impl->places(), nullptr, nullptr);
         m_impl->passes.recordCounts(recorder, frame);
-        m_impl->tasksRecorded = true;
+        m_impl->listedRays = {m_impl->books().rayCount(), m_impl->books().fixedRayCount()};
     });
 }
 
@@ -113,22 +113,22 @@ Result<void> GpuField::recordUpdate(VkCommandBuffer commands, const BufferRange&
 Result<void> GpuField::recordUpdate(VkCommandBuffer commands, const BufferRange& rayData, const BufferRange& fixedRays,
                                     Profiler* profiler) {
     FieldControl::Impl& books = m_impl->books();
-    if (auto ok = checkRange(rayData, "rayData", books.rayCount(), sizeof(RayDatum)); !ok) return ok;
-    if (!fixedRays.empty())
-        if (auto ok = checkRange(fixedRays, "fixedRays", books.fixedRayCount(), sizeof(FixedRayDatum)); !ok) return ok;
     const bool watched = m_impl->passes.watched();
-    if (watched && !m_impl->tasksRecorded)
+    if (watched && !m_impl->listedRays)
         return fail(ErrorCode::invalidArgument,
                     "with relocation or probeStates the GPU lists the tasks: call recordTasks() first, and trace the "
                     "rays of the tasks in taskBuffer()");
+    const std::size_t rays = watched ? m_impl->listedRays->update : books.rayCount(),
+                      fixed = watched ? m_impl->listedRays->fixed : books.fixedRayCount();
+    if (auto ok = checkRange(rayData, "rayData", rays, sizeof(RayDatum)); !ok) return ok;
+    if (!fixedRays.empty())
+        if (auto ok = checkRange(fixedRays, "fixedRays", fixed, sizeof(FixedRayDatum)); !ok) return ok;
     return m_impl->recorded("recording an update", [&] {
         const UpdateFrame frame = fixedRays.empty() ? books.comingUpdateWithoutFixedRays() : books.comingUpdate();
         m_impl->passes.recordUpdate({m_impl->passes.device().impl(), commands}, frame,
                                     RayAddresses{rayData.address, fixedRays.address}, profiler);
-        if (watched)
-            m_impl->passes.recordLook({m_impl->passes.device().impl(), commands}, frame, m_impl->places(),
-                                      rayData.address);
-        m_impl->tasksRecorded = false;
+        if (watched) m_impl->passes.recordLook({m_impl->passes.device().impl(), commands}, rayData.address);
+        m_impl->listedRays = {};
         books.advance();
     });
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/sentence.h"
 #include "field/control_impl.h"
 #include "vulkan/device/errors.h"
@@ -17,7 +19,10 @@ struct GpuField::Impl {
     template <class Body>
     Result<void> recorded(const char* doing, const Body& body) {
         auto done = guarded(doing, body);
-        if (!done) passes.forgetRecorded();
+        if (!done) {
+            passes.forgetRecorded();
+            listedRays = {};
+        }
         return done;
     }
 
@@ -30,7 +35,11 @@ struct GpuField::Impl {
     }
 
     FieldPasses passes;
-    bool tasksRecorded = false;  // since the last update
+    /// Of recordTasks() since the last update: how many rays of each kind the caller may have to trace.
+    struct ListedRays {
+        std::size_t update = 0, fixed = 0;
+    };
+    std::optional<ListedRays> listedRays;
     FieldControl control;
 };
 

@@ -21,11 +21,12 @@ void main() {
         const float distance = safeDistance(d.distance);
         const bool hit = distance < kMissDistance;
         const vec3 position = task.origin + abs(distance) * direction;
+        // Of its surface no more is known than that it faces the ray. Within the bounds of what moves may be static
+        // ones too, which stay when it goes.
+        if (hit && !hitBack(distance)) markUsed(position, -direction);
         if (hit && moves(position)) continue;
         ++counted;
         addToPlaceSight(sight, toVolumeDirection(v, direction), distance, hitBackface(distance, d.radiance.x));
-        // Of its surface no more is known than that it faces the ray.
-        if (hit && !hitBack(distance)) markUsed(position, -direction);
     }
     probegiStates.at[slot].placement = lookedAround(v, probegiStates.at[slot].placement, sight, counted);
 }

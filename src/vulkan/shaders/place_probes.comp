@@ -21,13 +21,14 @@ void traceRay(vec3 origin, uint i) {
     solids[i] = 0u;
     if (hit.primitive < 0) return;
     const Surface surface = surfaceAt(ray, hit);
+    // Within the bounds of what moves may be static surfaces too, which stay when it goes.
+    if (!surface.back) markUsed(surface.position, surface.geometricNormal);
     if (moves(surface.position)) {
         distances[i] = kIgnored;
         return;
     }
     distances[i] = surface.back ? -hit.distance : hit.distance;
     solids[i] = surface.backface ? 1u : 0u;
-    if (!surface.back) markUsed(surface.position, surface.geometricNormal);
 }
 
 uint lookFrom(Volume v, uint placement) {
@@ -48,7 +49,7 @@ void main() {
     useSceneOnly();
     const Volume v = probegiField.volumes[probegiVolumeOf(slot)];
     const uint thread = gl_LocalInvocationID.x;
-    if (thread == 0u) placementNow = probegiStates.at[slot].placement;
+    if (thread == 0u) placementNow = probegiStates.at[slot].placement & ~(kLookBits | kInsideBit);
     barrier();
     const uint looks = looksOfPlacement((push.flags & kPlacesRelocate) != 0);
     for (uint look = 0u; look < looks; ++look) {
