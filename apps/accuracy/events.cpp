@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "probegi/builtin_scenes.h"
+#include "render_options.h"
 
 namespace probegi::accuracy {
 
@@ -22,7 +23,6 @@ constexpr double kLeft = 0.1;       ///< of the change
 constexpr int kProbes = 700;
 constexpr float kTruthTolerance = 0.004f;
 constexpr int kTruthUpdates = 300;
-constexpr float kPaperVisibilityExponent = 50;
 
 /// The value; throws the error's message, which measureEvents() catches.
 template <class T>
@@ -87,7 +87,7 @@ std::vector<Change> changes() {
 
 FieldSettings settingsFor(FieldRules rules) {
     FieldSettings settings;
-    if (rules == FieldRules::paper) settings.visibilityExponent = kPaperVisibilityExponent;
+    if (rules == FieldRules::paper) settings.visibilityExponent = tool::kPaperVisibilityExponent;
     return settings;
 }
 

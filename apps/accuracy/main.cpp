@@ -237,30 +237,16 @@ Result<void> measure(const Options& options) {
         if (!rows) return rows.error();
         tables += sweepTables(*rows);
     }
-    if (wanted("surfaces")) {
-        const auto table = surfaces(*context, options);
-        if (!table) return table.error();
-        tables += *table;
-    }
-    if (wanted("placement")) {
-        const auto table = placement(*context, options);
-        if (!table) return table.error();
-        tables += *table;
-    }
-    if (wanted("motion")) {
-        const auto table = motion(*context, options);
-        if (!table) return table.error();
-        tables += *table;
-    }
-    if (wanted("flight")) {
-        const auto table = flights(*context, options);
-        if (!table) return table.error();
-        tables += *table;
-    }
-    if (wanted("outside")) {
-        const auto table = outside(*context, options);
-        if (!table) return table.error();
-        tables += *table;
+    using Table = Result<std::string> (*)(const Context&, const Options&);
+    for (const auto& [name, table] : {std::pair<const char*, Table>("surfaces", surfaces),
+                                      {"placement", placement},
+                                      {"motion", motion},
+                                      {"flight", flights},
+                                      {"outside", outside}}) {
+        if (!wanted(name)) continue;
+        const auto made = table(*context, options);
+        if (!made) return made.error();
+        tables += *made;
     }
     if (wanted("events")) {
         const auto rows = measureEvents(*context);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "surfaces.h"
+
 namespace probegi::accuracy {
 
 namespace {
@@ -20,14 +22,6 @@ struct Variant {
 };
 constexpr Variant kVariants[] = {
     {"lattice", false, false}, {"states", false, true}, {"relocation", true, false}, {"both", true, true}};
-
-Result<SurfaceTruth> truthOf(const Context& context, const tool::LoadedSetup& setup, const Tracer& tracer) {
-    auto points = surfacePoints(*setup.scene, setup.pose, tracer, kPoints);
-    if (!points) return points.error();
-    const auto pathTracer = PathTracer::create(context, *setup.scene, setup.pose, tracer, setup.lighting);
-    if (!pathTracer) return pathTracer.error();
-    return traceSurfaceTruth(*pathTracer, std::move(*points), kPathsPerPoint);
-}
 
 /// Median milliseconds of an update.
 Result<double> timeUpdates(Field& field, const Tracer& tracer, const Lighting& lighting) {
@@ -56,7 +50,7 @@ Result<std::vector<PlacementRow>> measurePlacement(const Context& context, const
                                                    const tool::LoadedSetup& setup, LeakGuard guard) {
     const auto tracer = makeEmbreeTracer(context, *setup.scene, setup.pose);
     if (!tracer) return tracer.error();
-    const auto truth = truthOf(context, setup, **tracer);
+    const auto truth = surfaceTruth(context, setup, **tracer, kPoints, kPathsPerPoint);
     if (!truth) return truth.error();
     std::vector<PlacementRow> rows;
     std::vector<double> without;  // states

@@ -14,21 +14,22 @@ constexpr float kTolerance = 0.01f;  ///< of converge()
 constexpr int kMostUpdates = 128;    ///< of converge()
 constexpr int kPlainUpdates = 300;
 
-Result<SurfaceTruth> truthOf(const Context& context, const tool::LoadedSetup& setup, const Tracer& tracer) {
-    auto points = surfacePoints(*setup.scene, setup.pose, tracer, kPoints);
+}  // namespace
+
+Result<SurfaceTruth> surfaceTruth(const Context& context, const tool::LoadedSetup& setup, const Tracer& tracer,
+                                  int count, int pathsPerPoint) {
+    auto points = surfacePoints(*setup.scene, setup.pose, tracer, count);
     if (!points) return points.error();
     const auto pathTracer = PathTracer::create(context, *setup.scene, setup.pose, tracer, setup.lighting);
     if (!pathTracer) return pathTracer.error();
-    return traceSurfaceTruth(*pathTracer, std::move(*points), kPathsPerPoint);
+    return traceSurfaceTruth(*pathTracer, std::move(*points), pathsPerPoint);
 }
-
-}  // namespace
 
 Result<std::vector<SurfaceRow>> measureSurface(const Context& context, const std::string& name,
                                                const tool::LoadedSetup& setup, bool updatesToo) {
     const auto tracer = makeEmbreeTracer(context, *setup.scene, setup.pose);
     if (!tracer) return tracer.error();
-    const auto truth = truthOf(context, setup, **tracer);
+    const auto truth = surfaceTruth(context, setup, **tracer, kPoints, kPathsPerPoint);
     if (!truth) return truth.error();
     std::vector<SurfaceRow> rows;
     for (const bool plain : {false, true}) {

@@ -16,6 +16,10 @@ struct SurfaceRow {
     SurfaceError error;
 };
 
+/// What the path tracer finds at random points of the surfaces. Errors: those of the tracers.
+Result<SurfaceTruth> surfaceTruth(const Context& context, const tool::LoadedSetup& setup, const Tracer& tracer,
+                                  int points, int pathsPerPoint);
+
 /// The rows of one scene on its automatic grid: converge(), and with `updatesToo` 300 updates.
 /// Errors: those of the field and its tracer.
 Result<std::vector<SurfaceRow>> measureSurface(const Context& context, const std::string& name,

@@ -4,11 +4,12 @@
 
 namespace probegi::tool {
 
-namespace {
-
-constexpr float kPaperVisibilityExponent = 50;
-
-}  // namespace
+FieldSettings fieldSettings(const LoadedSetup& setup, Method method, FieldRules rules) {
+    FieldSettings settings = setup.settings;
+    if (rules == FieldRules::paper) settings.visibilityExponent = kPaperVisibilityExponent;
+    settings.guard = method == Method::leaky ? LeakGuard::none : LeakGuard::moments;
+    return settings;
+}
 
 bool hasProbes(const RenderOptions& options) {
     return options.method != Method::none && (options.method != Method::reference || options.guide);
@@ -29,10 +30,7 @@ Result<std::optional<Field>> makeEmptyField(const Backend& backend, const Loaded
     desc.rules = options.rules;
     desc.relocation = options.relocation;
     desc.probeStates = options.probeStates;
-    FieldSettings settings = setup.settings;
-    if (options.rules == FieldRules::paper) settings.visibilityExponent = kPaperVisibilityExponent;
-    settings.guard = options.method == Method::leaky ? LeakGuard::none : LeakGuard::moments;
-    auto field = backend.makeField(desc, settings);
+    auto field = backend.makeField(desc, fieldSettings(setup, options.method, options.rules));
     if (!field) return field.error();
     return std::move(*field);
 }

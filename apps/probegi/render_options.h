@@ -46,6 +46,12 @@ struct RenderOptions {
     bool events = true;  ///< --events
 };
 
+/// FieldSettings::visibilityExponent of --rules paper.
+inline constexpr float kPaperVisibilityExponent = 50;
+
+/// The setup's settings by what the command line says of rules and method.
+FieldSettings fieldSettings(const LoadedSetup& setup, Method method, FieldRules rules);
+
 /// Whether the method has a field of probes.
 bool hasProbes(const RenderOptions& options);
 

@@ -7,10 +7,8 @@
 #include "field/layout.h"
 #include "kernels/blend/probe_blend.h"
 #include "kernels/lookup/used_probes.h"
-#include "kernels/probe/probe_state.h"
-#include "kernels/probe/relocation.h"
+#include "kernels/probe/placing.h"
 #include "kernels/trace/ray_set.h"
-#include "kernels/volume/placed_probe.h"
 
 namespace probegi {
 
@@ -39,8 +37,9 @@ public:
     bool isNew(const ProbeTask& task) const {
         return kernels::stateOf(found.placements[task.slot]) == kernels::kUninitialized;
     }
-    /// Forgets looks of an earlier placing that was not ended: these are all.
-    void begin(const ProbeTask& task) { found.placements[task.slot] &= ~(kernels::kLookBits | kernels::kInsideBit); }
+    void begin(const ProbeTask& task) {
+        found.placements[task.slot] = kernels::beginPlacing(found.placements[task.slot]);
+    }
     glm::vec3 positionOf(const ProbeTask& task) const {
         const kernels::Volume& v = m_frame.volumes[task.volume];
         return kernels::placedPosition(v, kernels::probeCell(v, int(task.slot)), found.placements[task.slot]);
@@ -61,12 +60,7 @@ public:
             kernels::addToPlaceSight(sight, kernels::toVolumeDirection(v, directions[i]), rays[i].distance,
                                      rays[i].solid);
         }
-        placement = (placement & ~kernels::kInsideBit) + kernels::kOneLook;
-        if (kernels::isOff(sight.seen, counted, m_rules)) placement |= kernels::kInsideBit;
-        if (kernels::looksOf(placement) >= kernels::looksOfPlacement(m_frame.desc.relocation)) return;
-        const glm::vec3 offset = kernels::relocated(kernels::probeOffset(v, int(placement)), sight, counted, v.spacing,
-                                                    v.minSpacing, m_rules);
-        placement = kernels::withOffset(v, placement, offset);
+        placement = kernels::lookedAround(v, placement, sight, counted, m_frame.desc.relocation, m_rules);
     }
 
     FoundPlaces found;

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "kernels/probe/probe_state.h"
-#include "kernels/probe/relocation.h"
+#include "kernels/probe/placing.h"
 
 namespace probegi {
 
@@ -135,12 +134,9 @@ void ProbeStates::placed(std::span<const std::uint32_t> placements, std::span<co
         m_changed = true;
         if (!looked) continue;
         m_forgets[slot] = kForgets;  // what it knows, it saw from elsewhere
-        if (kernels::looksOf(word) < kernels::looksOfPlacement(m_relocation)) continue;
-        const bool inside = (word & kernels::kInsideBit) != 0;
+        if (!kernels::isPlaced(word, m_relocation)) continue;
         m_placements[slot] &= ~kernels::kPlacingBits;
-        happen(slot, !m_states || (used && !inside) ? kernels::kSurfaceFound
-                     : inside                       ? kernels::kPlacedInside
-                                                    : kernels::kPlacedInOpen);
+        happen(slot, kernels::placedEvent(word, used, m_states));
     }
 }
 

@@ -22,7 +22,6 @@ public:
     std::span<const std::uint32_t> placements() const noexcept { return m_placements; }
     /// Whether the field has relocation or states at all.
     bool watched() const noexcept { return m_relocation || m_states; }
-    bool relocates() const noexcept { return m_relocation; }
     /// Whether some probes await their placement.
     bool hasNew() const noexcept { return m_new > 0; }
     bool isNew(std::size_t slot) const noexcept;

@@ -9,6 +9,8 @@
 #include <map>
 #include <utility>
 
+#include "scene/animation.h"
+
 namespace probegi {
 
 SceneGeometry SceneGeometry::gather(const Scene& scene, const ScenePose& pose, const InstancePredicate& movable) {
@@ -58,15 +60,9 @@ InstancePredicate animatedInstances(const Scene& scene) {
 }
 
 InstancePredicate movableInstances(const Scene& scene, bool animated, std::span<const int> nodes) {
-    std::vector<bool> moves(scene.nodes.size(), false);
+    std::vector<bool> moves = animated ? animatedNodes(scene) : std::vector<bool>(scene.nodes.size(), false);
     for (const int node : nodes) moves[std::size_t(node)] = true;
-    if (animated)
-        for (const AnimationChannel& channel : scene.animations) moves[std::size_t(channel.node)] = true;
-    // Parents come first, so one pass propagates the motion.
-    for (std::size_t i = 0; i < moves.size(); ++i) {
-        const int parent = scene.nodes[i].parent;
-        if (parent >= 0 && moves[std::size_t(parent)]) moves[i] = true;
-    }
+    moveChildren(scene, moves);
     return [moves = std::move(moves)](const Instance& instance) {
         return instance.node >= 0 && moves[std::size_t(instance.node)];
     };

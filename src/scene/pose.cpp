@@ -121,11 +121,15 @@ ScenePose poseAt(const Scene& scene, float seconds) {
     return pose;
 }
 
+void moveChildren(const Scene& scene, std::vector<bool>& moves) {
+    for (std::size_t i = 0; i < moves.size(); ++i)  // parents come first
+        if (scene.nodes[i].parent >= 0 && moves[std::size_t(scene.nodes[i].parent)]) moves[i] = true;
+}
+
 std::vector<bool> animatedNodes(const Scene& scene) {
     std::vector<bool> moves(scene.nodes.size(), false);
     for (const AnimationChannel& channel : scene.animations) moves[std::size_t(channel.node)] = true;
-    for (std::size_t i = 0; i < moves.size(); ++i)  // parents come first
-        if (scene.nodes[i].parent >= 0 && moves[std::size_t(scene.nodes[i].parent)]) moves[i] = true;
+    moveChildren(scene, moves);
     return moves;
 }
 

@@ -14,17 +14,15 @@
 #include "field_run.h"
 #include "probegi/measure.h"
 #include "probegi/render.h"
+#include "render_options.h"
 #include "scene_setup.h"
 
 namespace probegi::tool {
 
 namespace {
 
-enum class Method { leaky, ddgi };
-
 constexpr std::size_t kShownPlaces = 10;
 constexpr double kLeastHarm = 0.05;  // of the most harmful place's, from which others are shown
-constexpr float kPaperVisibilityExponent = 50;
 
 struct AuditOptions {
     SceneOptions scene;
@@ -61,10 +59,7 @@ Result<Field> makeField(const Backend& backend, const LoadedSetup& setup, const 
     desc.raysPerProbe = options.rays;
     desc.rules = options.rules;
     desc.seed = options.seed;
-    FieldSettings settings = setup.settings;
-    if (options.rules == FieldRules::paper) settings.visibilityExponent = kPaperVisibilityExponent;
-    settings.guard = options.method == Method::leaky ? LeakGuard::none : LeakGuard::moments;
-    return backend.makeField(desc, settings);
+    return backend.makeField(desc, fieldSettings(setup, options.method, options.rules));
 }
 
 AuditDesc auditDesc(const AuditOptions& options) {

@@ -28,5 +28,6 @@ void main() {
         ++counted;
         addToPlaceSight(sight, toVolumeDirection(v, direction), distance, hitBackface(distance, d.radiance.x));
     }
-    probegiStates.at[slot].placement = lookedAround(v, probegiStates.at[slot].placement, sight, counted);
+    probegiStates.at[slot].placement =
+        lookedAround(v, probegiStates.at[slot].placement, sight, counted, relocates(), probegiField.rules);
 }

@@ -40,7 +40,7 @@ uint lookFrom(Volume v, uint placement) {
         addToPlaceSight(sight, toVolumeDirection(v, sphericalFibonacci(i, kRelocationRays)), distances[i],
                         solids[i] != 0u);
     }
-    return lookedAround(v, placement, sight, counted);
+    return lookedAround(v, placement, sight, counted, relocates(), probegiField.rules);
 }
 
 void main() {
@@ -49,9 +49,9 @@ void main() {
     useSceneOnly();
     const Volume v = probegiField.volumes[probegiVolumeOf(slot)];
     const uint thread = gl_LocalInvocationID.x;
-    if (thread == 0u) placementNow = probegiStates.at[slot].placement & ~(kLookBits | kInsideBit);
+    if (thread == 0u) placementNow = beginPlacing(probegiStates.at[slot].placement);
     barrier();
-    const uint looks = looksOfPlacement((push.flags & kPlacesRelocate) != 0);
+    const uint looks = looksOfPlacement(relocates());
     for (uint look = 0u; look < looks; ++look) {
         const vec3 origin = placedPosition(v, probeCell(v, slot), placementNow);
         for (uint i = thread; i < kRelocationRays; i += gl_WorkGroupSize.x) traceRay(origin, i);

@@ -1,4 +1,4 @@
-// What the passes of relocation and states share (kernels/probe/relocation.h, kernels/probe/probe_state.h).
+// What the passes of relocation and states share (kernels/probe/placing.h).
 #ifndef PROBEGI_PLACES_GLSL
 #define PROBEGI_PLACES_GLSL
 
@@ -6,8 +6,7 @@
 
 #include "kernels/abi/gpu_passes.h"
 #include "kernels/lookup/used_probes.h"
-#include "kernels/probe/probe_state.h"
-#include "kernels/probe/relocation.h"
+#include "kernels/probe/placing.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer BoundsList {
     GpuBounds at[];
@@ -16,6 +15,13 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Bou
 layout(push_constant, scalar) uniform Push {
     PlacesPush push;
 };
+
+bool relocates() {
+    return (push.flags & kPlacesRelocate) != 0;
+}
+bool sleeps() {
+    return (push.flags & kPlacesSleep) != 0;
+}
 
 bool isNewProbe(int slot) {
     return stateOf(probegiStates.at[slot].placement) == kUninitialized;
@@ -32,7 +38,7 @@ bool moves(vec3 point) {
 
 // The probes, of all volumes, that a surface uses.
 void markUsed(vec3 position, vec3 normal) {
-    if ((push.flags & kPlacesSleep) == 0) return;
+    if (!sleeps()) return;
     for (int i = 0; i < probegiField.volumeCount; ++i) {
         const Volume v = probegiField.volumes[i];
         const UsedProbes used = usedProbes(v, position, normal, probegiField.selfShadowBias, probegiField.rules);
@@ -41,16 +47,6 @@ void markUsed(vec3 position, vec3 normal) {
                 for (int x = used.lowest.x; x <= used.highest.x; ++x)
                     Uints(push.surfaces).at[probeSlot(v, ivec3(x, y, z))] = 1u;
     }
-}
-
-// A placement after one look by `counted` rays.
-uint lookedAround(Volume v, uint placement, PlaceSight sight, int counted) {
-    placement = (placement & ~kInsideBit) + kOneLook;
-    if (isOff(sight.seen, counted, probegiField.rules)) placement |= kInsideBit;
-    if (looksOf(placement) >= looksOfPlacement((push.flags & kPlacesRelocate) != 0)) return placement;
-    const vec3 offset =
-        relocated(probeOffset(v, int(placement)), sight, counted, v.spacing, v.minSpacing, probegiField.rules);
-    return withOffset(v, placement, offset);
 }
 
 #endif

@@ -15,13 +15,6 @@ bool isNear(Volume v, int slot) {
     return false;
 }
 
-// State of a probe whose last look is done.
-uint beginning(uint placement, bool used) {
-    if ((push.flags & kPlacesSleep) == 0) return nextProbeState(kUninitialized, kSurfaceFound);
-    if ((placement & kInsideBit) != 0u) return nextProbeState(kUninitialized, kPlacedInside);
-    return nextProbeState(kUninitialized, used ? kSurfaceFound : kPlacedInOpen);
-}
-
 void main() {
     const uint index = globalIndex();
     if (index >= push.slots) return;
@@ -33,10 +26,11 @@ void main() {
     if (before != kUninitialized) {
         placement = withState(placement, nextProbeState(before, kUpdated));
         if (used) placement = withState(placement, nextProbeState(stateOf(placement), kSurfaceFound));
-    } else if (looksOf(placement) >= looksOfPlacement((push.flags & kPlacesRelocate) != 0)) {
-        placement = (placement & ~(kPlacingBits | kStateBits)) | beginning(placement, used);
+    } else if (isPlaced(placement, relocates())) {
+        const uint first = nextProbeState(kUninitialized, placedEvent(placement, used, sleeps()));
+        placement = withState(placement & ~kPlacingBits, first);
     }
-    if ((push.flags & kPlacesSleep) != 0) {
+    if (sleeps()) {
         const Volume v = probegiField.volumes[probegiVolumeOf(slot)];
         const uint event = isNear(v, slot) ? kMoverNear : kMoverGone;
         placement = withState(placement, nextProbeState(stateOf(placement), event));
