@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <functional>
 
 #include "vulkan/device/errors.h"
@@ -19,7 +21,7 @@ public:
     template <class T>
     VkDeviceAddress add(std::span<const T> values) {
         const std::size_t at = m_used;
-        std::memcpy(m_upload.mapped<std::byte>().data() + at, values.data(), values.size_bytes());
+        std::ranges::copy(std::as_bytes(values), m_upload.mapped<std::byte>().begin() + std::ptrdiff_t(at));
         m_used += (values.size_bytes() + 15) / 16 * 16;
         return m_in.address() + at;
     }
