@@ -13,6 +13,7 @@ build_packages=(
     libturbojpeg0-dev libjpeg62-turbo-dev  # the first one's CMake package asks for files of the second
     libcli11-dev libfmt-dev
     libvulkan-dev glslc  # headers and shader compiler; the loader is opened at run time
+    spirv-cross          # the field's shader in other languages
 )
 test_packages=(
     libgtest-dev libgmock-dev libbenchmark-dev

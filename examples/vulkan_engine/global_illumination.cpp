@@ -55,7 +55,7 @@ void GlobalIllumination::record(const vk::raii::CommandBuffer& commands, const F
     profiler.recordBegin(*commands, "own rays");
     m_ownRays.record(commands, m_own, frame);
     profiler.recordEnd(*commands);
-    m_own.recordUpdate(*commands, m_ownRays.data(), &profiler).value();
+    m_own.recordUpdate(*commands, m_ownRays.data(), {}, &profiler, vulkan::RayFormat::packed).value();
     // [/own]
 }
 

@@ -9,9 +9,7 @@ constexpr std::uint32_t kTraceProbes[] = {
 };
 
 struct TracePush {
-    vk::DeviceAddress frame, directions, rayData;
-    std::int32_t rays;
-    std::int32_t unused = 0;
+    vk::DeviceAddress frame, rayData;
 };
 
 std::size_t rayCount(const FieldDesc& desc) {
@@ -26,8 +24,7 @@ vk::raii::PipelineLayout makeLayout(const vk::raii::Device& device, vk::Descript
 }  // namespace
 
 OwnRays::OwnRays(const EngineDevice& engine, MemoryPool& pool, const vulkan::GpuField& volume)
-    : m_directions(engine.device(), pool, volume.desc().raysPerProbe * sizeof(glm::vec3)),
-      m_data(engine.device(), pool, rayCount(volume.desc()) * sizeof(RayDatum)),
+    : m_data(engine.device(), pool, rayCount(volume.desc()) * sizeof(PackedRayDatum)),
       m_probes(engine.device()),
       m_layout(makeLayout(engine.device(), m_probes.layout())),
       m_trace(makeComputePipeline(engine.device(), *m_layout, kTraceProbes)) {
@@ -36,12 +33,7 @@ OwnRays::OwnRays(const EngineDevice& engine, MemoryPool& pool, const vulkan::Gpu
 
 void OwnRays::record(const vk::raii::CommandBuffer& commands, const vulkan::GpuField& volume,
                      vk::DeviceAddress frame) const {
-    // The directions change every frame. They are part of the command buffer, so no copy per frame in flight is needed.
-    const std::span<const glm::vec3> directions = volume.control().rayDirections();
-    order(commands, kComputeUse, kTransferWrite);
-    commands.updateBuffer<glm::vec3>(*m_directions.buffer, 0, {std::uint32_t(directions.size()), directions.data()});
-    order(commands, kTransferWrite, kComputeUse);
-    const TracePush push{frame, m_directions.address, m_data.address, volume.desc().raysPerProbe};
+    const TracePush push{frame, m_data.address};
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *m_trace);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *m_layout, 0, *m_probes, {});
     commands.pushConstants<TracePush>(*m_layout, vk::ShaderStageFlagBits::eCompute, 0, push);

@@ -19,7 +19,7 @@ public:
     probegi::vulkan::BufferRange data() const { return {m_data.address, m_data.bytes}; }
 
 private:
-    GpuBuffer m_directions, m_data;
+    GpuBuffer m_data;
     ProbeSet m_probes;
     vk::raii::PipelineLayout m_layout;
     vk::raii::Pipeline m_trace;

@@ -21,6 +21,9 @@ namespace probegi {
 /// AVX3 (AVX-512), NEON... Chosen when the program runs.
 PROBEGI_API std::string_view instructionSet() noexcept;
 
+/// A datum in half the bytes, within 0.2 % (PackedRayDatum has the limits).
+PROBEGI_API PackedRayDatum packRay(const RayDatum& datum) noexcept;
+
 /// Wall-clock milliseconds of one update. Stages do not overlap; total includes what is in none of them.
 struct UpdateTimes {
     double trace = 0;  ///< closest hits
@@ -68,6 +71,9 @@ public:
     /// fixedRayDirections(), lets the field react to changes at once and average noise over long windows; without it
     /// (empty) old light fades by the hysteresis. Errors: invalidArgument (wrong length), outOfMemory.
     Result<UpdateTimes> update(std::span<const RayDatum> rayData, std::span<const FixedRayDatum> fixedRays = {});
+
+    /// The same from packed data.
+    Result<UpdateTimes> update(std::span<const PackedRayDatum> rayData, std::span<const FixedRayDatum> fixedRays = {});
 
     /// One update with the library's pipeline: trace, shade with `lighting` and last frame's field, blend. All surfaces
     /// reflect as Lambert of their base colour, at most 0.99 of it: a closed room of albedo 1 has no steady state.

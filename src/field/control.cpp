@@ -62,17 +62,25 @@ FieldControl::Impl::Impl(const FieldDesc& d, const FieldSettings& s)
       byDensity(volumesByDensity(d)),
       tasks(tasksOf(volumes, states, {})),
       directions(std::size_t(d.raysPerProbe)) {
+    if (desc.rules == FieldRules::measured) fixedDirections.resize(std::size_t(desc.fixedRays));
+    const kernels::RaySet set = raySet(0);
+    for (int i = 0; i < set.fixedCount; ++i) fixedDirections[std::size_t(i)] = kernels::fixedRayOfSet(set, i);
     turnRays();
-    const std::uint32_t fixed = desc.rules == FieldRules::measured ? std::uint32_t(desc.fixedRays) : 0u;
-    for (std::uint32_t i = 0; i < fixed; ++i) fixedDirections.push_back(kernels::sphericalFibonacci(i, fixed));
+}
+
+kernels::RaySet FieldControl::Impl::raySet(int number) const noexcept {
+    const bool shifted = desc.rules == FieldRules::measured && !averaging;
+    const std::uint32_t count = std::uint32_t(directions.size()), n = std::uint32_t(number);
+    const glm::mat3 rotation = kernels::frameRotation(seedOf(desc), shifted ? 0u : n);
+    return {.turned = {rotation[0], rotation[1], rotation[2]},
+            .shift = shifted ? kernels::frameShift(seedOf(desc), n, count) : glm::vec2(0.5f, 0.0f),
+            .count = int(count),
+            .fixedCount = int(fixedDirections.size())};
 }
 
 void FieldControl::Impl::turnRays() noexcept {
-    const bool shifted = desc.rules == FieldRules::measured && !averaging;
-    const std::uint32_t count = std::uint32_t(directions.size()), number = std::uint32_t(frame);
-    const glm::mat3 rotation = kernels::frameRotation(seedOf(desc), shifted ? 0u : number);
-    const glm::vec2 shift = shifted ? kernels::frameShift(seedOf(desc), number, count) : glm::vec2(0.5f, 0.0f);
-    for (std::uint32_t i = 0; i < count; ++i) directions[i] = rotation * kernels::shiftedFibonacci(i, count, shift);
+    const kernels::RaySet set = raySet(frame);
+    for (int i = 0; i < set.count; ++i) directions[std::size_t(i)] = kernels::rayOfSet(set, i);
 }
 
 std::size_t FieldControl::Impl::bytes() const noexcept {
@@ -112,7 +120,8 @@ UpdateFrame FieldControl::Impl::comingUpdate() const noexcept {
                        .events = events.regions(settings, frame == 0),
                        .ditherSeed = ditherSeedOf(desc, frame),
                        .raySeed = ditherSeedOf(desc, turns) ^ 0x85ebca6bu,
-                       .bounces = frame > 0};
+                       .bounces = frame > 0,
+                       .nextRays = raySet(frame + 1)};
     if (desc.rules == FieldRules::paper) return coming;
     coming.linear = coming.windows = true;
     coming.fixedDirections = fixedDirections;

@@ -6,6 +6,7 @@
 #include "field/probe_states.h"
 #include "field/update_frame.h"
 #include "field/volume_access.h"
+#include "kernels/trace/ray_set.h"
 #include "probegi/control.h"
 #include "probegi/snapshot.h"
 
@@ -27,6 +28,8 @@ struct FieldControl::Impl {
     /// Whether the coming updates are part of an average. Their rays are turned, not shifted: an average follows
     /// bounces with one and the same set, which is best as it was published.
     void setAveraging(bool averaging);
+    /// The directions of update `number`, in a few numbers.
+    kernels::RaySet raySet(int number) const noexcept;
     /// Ends the frame: after the update. Without `turn`, the coming update has the same rays again.
     void advance(bool turn = true);
     /// Back to frame 0, for probes that were cleared. Desc, settings and tasks stay.

@@ -4,6 +4,7 @@
 #include <new>
 #include <optional>
 
+#include "core/parallel.h"
 #include "core/progress.h"
 #include "core/sentence.h"
 #include "field/control_impl.h"
@@ -11,6 +12,7 @@
 #include "field/field_backend.h"
 #include "field/probe_placement.h"
 #include "field/snapshot.h"
+#include "kernels/probe/packed_ray.h"
 
 namespace probegi {
 
@@ -147,6 +149,11 @@ FieldMemory Field::memory() const noexcept {
     return memory;
 }
 
+PackedRayDatum packRay(const RayDatum& datum) noexcept {
+    return {kernels::packRadiance(kernels::unsignedRadiance(datum.distance, datum.radiance)),
+            kernels::packRayDistance(datum.distance, datum.radiance.x)};
+}
+
 Result<UpdateTimes> Field::update(std::span<const RayDatum> rayData, std::span<const FixedRayDatum> fixedRays) try {
     FieldControl::Impl& books = m_impl->books();
     if (rayData.size() != books.rayCount())
@@ -170,6 +177,20 @@ Result<UpdateTimes> Field::update(std::span<const RayDatum> rayData, std::span<c
         if (auto told = m_impl->tellPlaces(); !told) return told.error();
     }
     return times;
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, kNoRayDataMemory);
+}
+
+Result<UpdateTimes> Field::update(std::span<const PackedRayDatum> rayData,
+                                  std::span<const FixedRayDatum> fixedRays) try {
+    std::vector<RayDatum> unpacked(rayData.size());
+    parallelFor(m_impl->context, rayData.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const PackedRayDatum& d = rayData[i];
+            unpacked[i] = {kernels::unpackRayRadiance(d.radiance, d.distance), d.distance};
+        }
+    });
+    return update(unpacked, fixedRays);
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, kNoRayDataMemory);
 }

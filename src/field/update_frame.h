@@ -4,6 +4,7 @@
 #include <span>
 
 #include "field/hysteresis.h"
+#include "kernels/trace/ray_set.h"
 #include "kernels/volume/volume.h"
 #include "probegi/field.h"
 
@@ -25,8 +26,9 @@ struct UpdateFrame {
     float longestWindow = 1;                       ///< updates, of irradiance
     float longestVisibilityWindow = 1;             ///< updates, of distance moments
     std::uint32_t ditherSeed = 0;                  ///< differs between frames
-    std::uint32_t raySeed = 0;  ///< of random choices besides the directions: the same as long as the rays are
-    bool bounces = true;        ///< whether the probes hold light of an earlier update
+    std::uint32_t raySeed = 0;   ///< of random choices besides the directions: the same as long as the rays are
+    bool bounces = true;         ///< whether the probes hold light of an earlier update
+    kernels::RaySet nextRays{};  ///< of the update after this one
 
     /// Whether all of the field's probes are updated, in the order of their slots.
     bool whole() const noexcept { return taskList == 0; }

@@ -141,6 +141,45 @@ TEST_F(VulkanAdopt, missingMembersAreNamed) {
     });
 }
 
+// A field that is updated on one queue and read on another: the driver has one family only, so it is told of two and
+// does not see the sharing.
+TEST_F(VulkanAdopt, readingFamiliesShareBuffersAndImages) {
+    Engine engine;
+    vulkan::AdoptDesc desc = engine.adoptDesc();
+    desc.getInstanceProcAddr = hookedLoader;
+    std::uint32_t familyCount = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(engine.physical, &familyCount, nullptr);
+    const auto sharing = [&](std::vector<std::uint32_t> reading) {
+        hooks().reset();
+        hooks().moreFamilies = 2;
+        std::set<std::vector<std::uint32_t>> seen;
+        const auto look = [&](auto& info) {
+            const bool concurrent = info.sharingMode == VK_SHARING_MODE_CONCURRENT;
+            seen.insert(concurrent ? std::vector<std::uint32_t>(info.pQueueFamilyIndices,
+                                                                info.pQueueFamilyIndices + info.queueFamilyIndexCount)
+                                   : std::vector<std::uint32_t>());
+            info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+            info.queueFamilyIndexCount = 0;
+        };
+        hooks().buffers = look;
+        hooks().images = look;
+        desc.readingFamilies = reading;
+        const vulkan::Device device = vulkan::Device::adopt(log, desc).value();
+        vulkan::GpuField::create(device, world.desc).value();
+        return seen;
+    };
+    using Families = std::set<std::vector<std::uint32_t>>;
+    const std::uint32_t own = desc.queueFamily;
+    EXPECT_EQ(sharing({}), Families{{}});
+    EXPECT_EQ(sharing({own}), Families{{}});
+    EXPECT_EQ(sharing({familyCount, own, familyCount}), (Families{{own, familyCount}}));
+    EXPECT_EQ(sharing({familyCount + 1, familyCount}), (Families{{own, familyCount + 1, familyCount}}));
+    const std::uint32_t none[] = {familyCount};
+    desc.readingFamilies = none;
+    hooks().reset();
+    expectRefused(desc, ErrorCode::invalidArgument, "readingFamilies");
+}
+
 TEST_F(VulkanAdopt, whatTheDriverLacksIsNamed) {
     Engine engine;
     vulkan::AdoptDesc desc = engine.adoptDesc();

@@ -1,7 +1,9 @@
 #include "vulkan/hooks.h"
 
+#include <algorithm>
 #include <cstring>
 #include <string_view>
+#include <type_traits>
 
 namespace probegi::test {
 
@@ -28,17 +30,28 @@ Function deviceFunction(VkDevice device, const char* name) {
     return reinterpret_cast<Function>(vkGetDeviceProcAddr(device, name));
 }
 
-#define HOOK_OBJECT(Kind, Info)                                                                                        \
-    VKAPI_ATTR VkResult VKAPI_CALL create##Kind(VkDevice device, const Info* info, const VkAllocationCallbacks* own,   \
-                                                Vk##Kind* made) {                                                      \
-        if (refused("vkCreate" #Kind)) return hooks().failure;                                                         \
-        const VkResult result = deviceFunction<PFN_vkCreate##Kind>(device, "vkCreate" #Kind)(device, info, own, made); \
-        if (result == VK_SUCCESS) ++hooks().live[#Kind];                                                               \
-        return result;                                                                                                 \
-    }                                                                                                                  \
-    VKAPI_ATTR void VKAPI_CALL destroy##Kind(VkDevice device, Vk##Kind object, const VkAllocationCallbacks* own) {     \
-        if (object) --hooks().live[#Kind];                                                                             \
-        deviceFunction<PFN_vkDestroy##Kind>(device, "vkDestroy" #Kind)(device, object, own);                           \
+template <class Info>
+Info seen(Info info) {
+    if constexpr (std::is_same_v<Info, VkBufferCreateInfo>)
+        if (hooks().buffers) hooks().buffers(info);
+    if constexpr (std::is_same_v<Info, VkImageCreateInfo>)
+        if (hooks().images) hooks().images(info);
+    return info;
+}
+
+#define HOOK_OBJECT(Kind, Info)                                                                                      \
+    VKAPI_ATTR VkResult VKAPI_CALL create##Kind(VkDevice device, const Info* info, const VkAllocationCallbacks* own, \
+                                                Vk##Kind* made) {                                                    \
+        if (refused("vkCreate" #Kind)) return hooks().failure;                                                       \
+        const Info asked = seen(*info);                                                                              \
+        const VkResult result =                                                                                      \
+            deviceFunction<PFN_vkCreate##Kind>(device, "vkCreate" #Kind)(device, &asked, own, made);                 \
+        if (result == VK_SUCCESS) ++hooks().live[#Kind];                                                             \
+        return result;                                                                                               \
+    }                                                                                                                \
+    VKAPI_ATTR void VKAPI_CALL destroy##Kind(VkDevice device, Vk##Kind object, const VkAllocationCallbacks* own) {   \
+        if (object) --hooks().live[#Kind];                                                                           \
+        deviceFunction<PFN_vkDestroy##Kind>(device, "vkDestroy" #Kind)(device, object, own);                         \
     }
 
 HOOK_OBJECT(Buffer, VkBufferCreateInfo)
@@ -106,7 +119,10 @@ VKAPI_ATTR void VKAPI_CALL physicalFormats(VkPhysicalDevice device, VkFormat for
 }
 VKAPI_ATTR void VKAPI_CALL physicalFamilies(VkPhysicalDevice device, std::uint32_t* count,
                                             VkQueueFamilyProperties* out) {
-    vkGetPhysicalDeviceQueueFamilyProperties(device, count, out);
+    std::uint32_t real = out ? *count - hooks().moreFamilies : 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &real, out);
+    *count = real + hooks().moreFamilies;
+    if (out) std::fill(out + real, out + *count, out[real - 1]);
     if (out && hooks().families)
         for (std::uint32_t i = 0; i < *count; ++i) hooks().families(out[i]);
 }

@@ -35,6 +35,10 @@ struct Hooks {
     std::function<void(VkPhysicalDeviceProperties&)> properties;
     std::function<void(VkFormat, VkFormatProperties&)> formats;
     std::function<void(VkQueueFamilyProperties&)> families;
+    std::uint32_t moreFamilies = 0;  ///< that the device pretends to have, copies of its last one
+    /// See what the library asks for, and change what the driver gets.
+    std::function<void(VkBufferCreateInfo&)> buffers;
+    std::function<void(VkImageCreateInfo&)> images;
     std::function<void(VkPhysicalDeviceFeatures2&)> features;
     std::string hidden;  ///< functions whose names contain it are missing; empty: none
     int submits = 0;

@@ -25,9 +25,9 @@ VkDescriptorSetLayout makeLayout(VkDevice device, std::span<const VkDescriptorSe
 }  // namespace
 
 QueryShader::QueryShader(const Engine& engine, const char* spirvFile, const EngineBuffer& questions,
-                         const EngineBuffer& answers)
+                         const EngineBuffer& answers, vulkan::QueryConstants constants)
     : m_device(engine.device) {
-    makeSets(questions, answers);
+    makeSets(questions, answers, constants);
     makePipeline(spirvFile);
 }
 
@@ -38,13 +38,15 @@ QueryShader::~QueryShader() {
     for (const VkDescriptorSetLayout layout : m_layouts) vkDestroyDescriptorSetLayout(m_device, layout, nullptr);
 }
 
-void QueryShader::makeSets(const EngineBuffer& questions, const EngineBuffer& answers) {
+void QueryShader::makeSets(const EngineBuffer& questions, const EngineBuffer& answers,
+                           vulkan::QueryConstants constants) {
     const VkDescriptorSetLayoutBinding own[] = {
         {0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
         {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr}};
     m_layouts[0] = makeLayout(m_device, own);
-    m_layouts[1] = makeLayout(m_device, vulkan::GpuField::queryBindings(kFirstBinding, VK_SHADER_STAGE_COMPUTE_BIT));
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 3},
+    m_layouts[1] =
+        makeLayout(m_device, vulkan::GpuField::queryBindings(kFirstBinding, VK_SHADER_STAGE_COMPUTE_BIT, constants));
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4},
                                           {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2}};
     const VkDescriptorPoolCreateInfo pool{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO, nullptr, 0, 2, 3, sizes};

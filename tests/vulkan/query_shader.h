@@ -4,14 +4,14 @@
 
 namespace probegi::test {
 
-/// An engine's compute shader that includes probegi/query.glsl (shaders/query_include.comp). Set 0: queries and
-/// results; set 1: the volume's bindings.
+/// An engine's compute shader that includes probegi/query.glsl (shaders/query_include.comp) or query.hlsl. Set 0:
+/// queries and results; set 1: the volume's bindings.
 class QueryShader {
 public:
     static constexpr std::uint32_t kFirstBinding = 3;  // PROBEGI_BINDING of the shader
 
-    QueryShader(const Engine& engine, const char* spirvFile, const EngineBuffer& questions,
-                const EngineBuffer& answers);
+    QueryShader(const Engine& engine, const char* spirvFile, const EngineBuffer& questions, const EngineBuffer& answers,
+                vulkan::QueryConstants constants = vulkan::QueryConstants::uniformBuffer);
     ~QueryShader();
     QueryShader(const QueryShader&) = delete;
     QueryShader& operator=(const QueryShader&) = delete;
@@ -21,7 +21,7 @@ public:
     void record(VkCommandBuffer commands, std::uint32_t count) const;
 
 private:
-    void makeSets(const EngineBuffer& questions, const EngineBuffer& answers);
+    void makeSets(const EngineBuffer& questions, const EngineBuffer& answers, vulkan::QueryConstants constants);
     void makePipeline(const char* spirvFile);
 
     VkDevice m_device;

@@ -275,6 +275,106 @@ TEST_F(VulkanRecorded, theIncludeGivesTheSameAsThePass) {
     expectEqual(byInclude, valuesOf(byPass), 1e-5f);
 }
 
+#ifdef PROBEGI_QUERY_HLSL_SPIRV
+TEST_F(VulkanRecorded, theIncludeInHlslGivesTheSame) {
+    const vulkan::Device device = adopt();
+    GpuField volume = *GpuField::create(device, world.desc, world.desc);
+    const std::size_t asked = queries.size();
+    queries.push_back({world.pose.bounds.centre(), glm::vec3(0), glm::vec3(0)});
+    queries.push_back({world.pose.bounds.lower - 9.0f, glm::vec3(0), glm::vec3(0)});
+    for (int ray = 0; ray < world.desc.raysPerProbe; ++ray)
+        queries.push_back({glm::vec3(0), glm::vec3(0), glm::vec3(2 + ray, 0, 0)});
+    for (int ray = 0; ray < world.desc.fixedRays; ++ray)
+        queries.push_back({glm::vec3(0), glm::vec3(0), glm::vec3(0, 2 + ray, 0)});
+    questions = engine.makeBuffer(std::span<const FieldQuery>(queries));
+    const EngineBuffer byGlsl = answers(), byHlsl = answers();
+    QueryShader glsl(engine, PROBEGI_QUERY_SPIRV, questions, byGlsl);
+    volume.writeQueryBindings(glsl.volumeSet(), QueryShader::kFirstBinding);
+    constexpr auto kInBuffer = vulkan::QueryConstants::storageBuffer;
+    QueryShader hlsl(engine, PROBEGI_QUERY_HLSL_SPIRV, questions, byHlsl, kInBuffer);
+    volume.writeQueryBindings(hlsl.volumeSet(), QueryShader::kFirstBinding, kInBuffer);
+    engine.run([&](VkCommandBuffer commands) {
+        volume.recordClear(commands).value();
+        volume.recordUpdate(commands, rayBuffer.range()).value();
+        glsl.record(commands, count());
+        hlsl.record(commands, count());
+    });
+    expectEqual(byHlsl, valuesOf(byGlsl), 1e-5f);
+    EXPECT_EQ(byHlsl.as<glm::vec3>()[asked].x, 1.0f);
+    EXPECT_EQ(byHlsl.as<glm::vec3>()[asked + 1].x, 0.0f);
+}
+#endif
+
+// After each update shaders have the directions of the next one.
+TEST_F(VulkanRecorded, theIncludeKnowsTheComingRays) {
+    for (const FieldRules rules : {FieldRules::measured, FieldRules::paper}) {
+        const vulkan::Device device = adopt();
+        FieldDesc desc = world.desc;
+        desc.rules = rules;
+        GpuField volume = *GpuField::create(device, desc);
+        queries.clear();
+        for (int ray = 0; ray < desc.raysPerProbe; ++ray)
+            queries.push_back({glm::vec3(0), glm::vec3(0), glm::vec3(2 + ray, 0, 0)});
+        const std::size_t fixed = volume.control().fixedRayDirections().size();
+        for (std::size_t ray = 0; ray < fixed; ++ray)
+            queries.push_back({glm::vec3(0), glm::vec3(0), glm::vec3(0, 2 + ray, 0)});
+        questions = engine.makeBuffer(std::span<const FieldQuery>(queries));
+        const EngineBuffer answered = answers();
+        QueryShader shader(engine, PROBEGI_QUERY_SPIRV, questions, answered);
+        volume.writeQueryBindings(shader.volumeSet(), QueryShader::kFirstBinding);
+        for (int frame = 0; frame < 4; ++frame) {
+            engine.run([&](VkCommandBuffer commands) {
+                if (frame == 0) volume.recordClear(commands).value();
+                if (frame > 0) volume.recordUpdate(commands, rayBuffer.range()).value();
+                if (frame == 2) changeSettings(volume, [](FieldSettings& s) { s.guard = LeakGuard::none; });
+                volume.recordSettings(commands).value();
+                shader.record(commands, count());
+            });
+            std::vector<glm::vec3> wanted(volume.control().rayDirections().begin(),
+                                          volume.control().rayDirections().end());
+            wanted.insert(wanted.end(), volume.control().fixedRayDirections().begin(),
+                          volume.control().fixedRayDirections().end());
+            ASSERT_EQ(volume.control().frame(), frame);
+            expectEqual(answered, wanted, 1e-5f);
+        }
+    }
+}
+
+// Half the bytes a ray, for own rays with and without fixed ones.
+TEST_F(VulkanRecorded, packedRaysAreThoseOfTheCpu) {
+    const vulkan::Device device = adopt();
+    rays[3] = {{-0.5f, -0.25f, -1.0f}, -0.4f};
+    rays[20].distance = -0.3f;
+    rays[40].distance = 1e30f;
+    std::vector<PackedRayDatum> packed;
+    for (const RayDatum& d : rays) packed.push_back(packRay(d));
+    std::vector<FixedRayDatum> fixed(18 * std::size_t(world.desc.fixedRays), {0.5f, 0.1f, 1.0f});
+    const EngineBuffer packedBuffer = engine.makeBuffer(std::span<const PackedRayDatum>(packed)),
+                       fixedBuffer = engine.makeBuffer(std::span<const FixedRayDatum>(fixed));
+    for (const bool withFixed : {false, true}) {
+        GpuField volume = *GpuField::create(device, world.desc, world.desc);
+        Field onCpu = *Field::create(log, world.desc, world.desc);
+        const EngineBuffer result = answers();
+        const vulkan::BufferRange fixedRange = withFixed ? fixedBuffer.range() : vulkan::BufferRange();
+        engine.run([&](VkCommandBuffer commands) {
+            volume.recordClear(commands).value();
+            for (int i = 0; i < 3; ++i)
+                volume.recordUpdate(commands, packedBuffer.range(), fixedRange, nullptr, vulkan::RayFormat::packed)
+                    .value();
+            volume.recordQuery(commands, questions.address, result.address, count()).value();
+            const vulkan::BufferRange half{packedBuffer.address, packedBuffer.bytes - 1};
+            EXPECT_EQ(volume.recordUpdate(commands, half, fixedRange, nullptr, vulkan::RayFormat::packed).error().code,
+                      ErrorCode::invalidArgument);
+        });
+        for (int i = 0; i < 3; ++i)
+            onCpu.update(packed, withFixed ? std::span<const FixedRayDatum>(fixed) : std::span<const FixedRayDatum>())
+                .value();
+        std::vector<glm::vec3> wanted(queries.size());
+        onCpu.irradiance(queries, wanted).value();
+        expectEqual(result, wanted, 2e-3f);
+    }
+}
+
 // Without an update or a query by the library in between.
 TEST_F(VulkanRecorded, theSettingsReachShadersOfTheEngine) {
     const vulkan::Device device = adopt();

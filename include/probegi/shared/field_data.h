@@ -25,6 +25,16 @@ struct RayDatum {
     float distance PROBEGI_DEFAULT(0.0f);
 };
 
+/// A RayDatum in 8 bytes, for engines to which memory traffic counts: packRay(), or in shaders probegiPackRay() of
+/// query.glsl.
+struct PackedRayDatum {
+    /// As VK_FORMAT_E5B9G9R9_UFLOAT_PACK32: within 0.2 % of the largest channel; at most 65408, what is above becomes
+    /// that, what is below 3e-8 becomes 0. Without sign.
+    PROBEGI_UINT radiance PROBEGI_DEFAULT(0);
+    /// As RayDatum::distance. Where it is negative, its lowest bit is 1 if the surface has two sides.
+    float distance PROBEGI_DEFAULT(0.0f);
+};
+
 /// The result of one fixed ray of one probe: both lights add up to what a RayDatum of that direction holds.
 struct FixedRayDatum {
     /// Luminance of light from lights, emission and sky, W sr^-1 m^-2; not in 0..1e30: counts as 0.
@@ -44,6 +54,7 @@ struct FieldQuery {
 #ifdef __cplusplus
 static_assert(sizeof(ProbeTask) == 20 && offsetof(ProbeTask, slot) == 12 && offsetof(ProbeTask, volume) == 16);
 static_assert(sizeof(RayDatum) == 16 && offsetof(RayDatum, distance) == 12);
+static_assert(sizeof(PackedRayDatum) == 8 && offsetof(PackedRayDatum, distance) == 4);
 static_assert(sizeof(FixedRayDatum) == 12 && offsetof(FixedRayDatum, bounced) == 4 &&
               offsetof(FixedRayDatum, distance) == 8);
 static_assert(sizeof(FieldQuery) == 36 && offsetof(FieldQuery, normal) == 12 && offsetof(FieldQuery, toViewer) == 24);

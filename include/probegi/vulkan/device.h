@@ -66,6 +66,11 @@ struct AdoptDesc {
     VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
     std::uint32_t queueFamily = 0;  ///< of the command buffers that passes are recorded into
+    /// Other queue families whose shaders read what the library writes, for instance graphics where fields are updated
+    /// on an asynchronous compute queue. Buffers and images are then shared by all these families
+    /// (VK_SHARING_MODE_CONCURRENT), so that no ownership is transferred; the engine orders the queues with semaphores
+    /// (docs/vulkan.md). Empty, or the same family: they belong to one. Read during the call.
+    std::span<const std::uint32_t> readingFamilies{};
     /// The device's create info; extensions and features (pNext chain or pEnabledFeatures) are read during the call.
     /// Required.
     const VkDeviceCreateInfo* createInfo = nullptr;

@@ -88,8 +88,20 @@ struct BufferRange {
     bool empty() const noexcept { return bytes == 0; }
 };
 
+/// How the caller's rays are stored.
+enum class RayFormat : std::uint8_t {
+    full,    ///< RayDatum, 16 bytes
+    packed,  ///< PackedRayDatum, 8 bytes
+};
+
 /// Number of descriptors of `probegi/query.glsl`, from `PROBEGI_BINDING` on.
 inline constexpr std::uint32_t kQueryBindings = 4;
+
+/// How shaders of the engine see the first of these.
+enum class QueryConstants : std::uint8_t {
+    uniformBuffer,  ///< `query.glsl`, `query.metal`
+    storageBuffer,  ///< `query.hlsl`; `query.glsl` with PROBEGI_CONSTANTS_IN_BUFFER
+};
 
 /// A field's probes on the GPU: atlases, and the passes that update and query them. The same field as the CPU's: same
 /// rays in, same irradiance out.
@@ -140,9 +152,9 @@ public:
     Result<void> recordUpdate(VkCommandBuffer commands, const BufferRange& rayData, Profiler* profiler = nullptr);
 
     /// The same with fixed rays, as Field::update: `fixedRays` holds FixedRayDatum (12 bytes) [task * fixedRays + ray]
-    /// along fixedRayDirections(); an empty range: none.
+    /// along fixedRayDirections(); an empty range: none. `format` is that of `rayData`.
     Result<void> recordUpdate(VkCommandBuffer commands, const BufferRange& rayData, const BufferRange& fixedRays,
-                              Profiler* profiler = nullptr);
+                              Profiler* profiler = nullptr, RayFormat format = RayFormat::full);
 
     /// With FieldDesc::relocation or probeStates, for callers that trace the rays: steps the probes' states and lists
     /// the coming update's tasks in taskBuffer(). recordUpdate() without a scene needs it before each update; that with
@@ -163,12 +175,14 @@ public:
                              std::uint32_t count, Profiler* profiler = nullptr);
 
     /// The kQueryBindings layout bindings of `probegi/query.glsl`, for the given stages, from `firstBinding` on: the
-    /// field's constants (uniform buffer), the irradiance and visibility atlases (combined image samplers), the
-    /// probes' states (storage buffer).
-    static std::array<VkDescriptorSetLayoutBinding, kQueryBindings> queryBindings(std::uint32_t firstBinding,
-                                                                                  VkShaderStageFlags stages) noexcept;
+    /// field's constants, the irradiance and visibility atlases (combined image samplers), the probes' states (storage
+    /// buffer).
+    static std::array<VkDescriptorSetLayoutBinding, kQueryBindings> queryBindings(
+        std::uint32_t firstBinding, VkShaderStageFlags stages,
+        QueryConstants constants = QueryConstants::uniformBuffer) noexcept;
     /// Writes them into a descriptor set of the caller. Valid for the life of the field.
-    void writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBinding) const;
+    void writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBinding,
+                            QueryConstants constants = QueryConstants::uniformBuffer) const;
 
     struct Impl;
     Impl& impl() const noexcept { return *m_impl; }

@@ -2,6 +2,7 @@
 #ifndef PROBEGI_KERNELS_FIELD_CONSTANTS_H
 #define PROBEGI_KERNELS_FIELD_CONSTANTS_H
 
+#include "kernels/trace/ray_set.h"
 #include "kernels/volume/pool.h"
 #include "kernels/volume/volume.h"
 
@@ -37,6 +38,7 @@ struct FieldConstants {
     vec2 visibilityTexelSize;
     Volume volumes[kMostVolumes];
     VolumeBlending blending;
+    RaySet rays;  // of the coming update
 };
 
 KERNELS_END

@@ -85,13 +85,14 @@ struct FilterPush {
     uvec2 rayData;     // FixedRayDatum[task][ray] or, ownRays, RayDatum[task][ray]
     uvec2 directions;  // vec3[ray]
     int rays;
-    int ownRays;          // 1: there are no fixed rays, the update's own must do
+    int ownRays;          // not 0: there are no fixed rays, the update's own must do; kOwnRaysPacked: PackedRayDatum
     int texels;           // of an irradiance map, all
     float longestWindow;  // updates; forget: the windows
     float longestVisibilityWindow;
     uint ditherSeed;
     int forget;  // 1: probe_filter.comp only writes forgottenFilter()
 };
+KERNEL_CONST int kOwnRaysPacked = 2;
 
 // Less of the old values where changes were announced (probe_events.comp): after probe_windows.comp, or in its place
 // where there are no windows.
@@ -109,7 +110,7 @@ struct EventPush {
 // Both blends (blend_irradiance.comp, blend_visibility.comp).
 struct BlendPush {
     uvec2 tasks;              // GpuTaskCounts, ProbeTask[]
-    uvec2 rayData;            // RayDatum[task][ray]
+    uvec2 rayData;            // RayDatum[task][ray] or, packedRays, PackedRayDatum[task][ray]
     uvec2 sides;              // ProbeSides[slot]
     uvec2 irradianceWeights;  // as WeightsPush
     uvec2 visibilityRays;
@@ -126,6 +127,7 @@ struct BlendPush {
     uvec2 steps;          // GpuProbeStep[slot]: each with its own hysteresis; 0: all with the above
     uvec2 changes;        // out, where there are steps: TexelChange[block of texels][task]
     uvec2 filters;        // PackedProbeFilter[slot]
+    int packedRays;       // 1: rayData are packed
 };
 
 // What probes have that entered a volume (enter_volume.comp).
@@ -169,10 +171,11 @@ struct PlacesPush {
     uint moving;
     uint media;
     int rays;   // of the caller, a task
-    int flags;  // kPlacesRelocate, kPlacesSleep
+    int flags;  // kPlacesRelocate, kPlacesSleep, kPlacesPackedRays: rayData are PackedRayDatum
 };
 KERNEL_CONST int kPlacesRelocate = 1;
 KERNEL_CONST int kPlacesSleep = 2;
+KERNEL_CONST int kPlacesPackedRays = 4;
 
 // Paths into the open (find_solid_probes.comp).
 struct SolidPush {
@@ -261,7 +264,7 @@ KERNELS_END
 #ifdef __cplusplus
 namespace probegi::kernels {
 static_assert(offsetof(SceneConstants, tracer) == 140 && sizeof(SceneConstants) == 204 && sizeof(LightingBlock) == 40);
-static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(BlendPush) == 112 &&
+static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(BlendPush) == 116 &&
               sizeof(EnterPush) == 40 && sizeof(PlacementsPush) == 28 && sizeof(PlacesPush) == 88 &&
               sizeof(TracePush) == 76);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 104);

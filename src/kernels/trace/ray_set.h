@@ -81,6 +81,31 @@ KERNEL_FN mat3 frameRotation(uint seed, uint frame) {
     return randomRotation(u1, u2, u3);
 }
 
+// An update's directions in a few numbers, for shaders that trace the rays.
+struct RaySet {
+    vec3 turned[3];  // the axes after the rotation
+    vec2 shift;      // shiftedFibonacci()
+    int count;       // raysPerProbe
+    int fixedCount;  // of fixed rays; 0: none
+};
+
+// 0 <= index < count: FieldControl::rayDirections().
+KERNEL_FN vec3 rayOfSet(IN(RaySet) set, int index) {
+    return mat3(set.turned[0], set.turned[1], set.turned[2]) *
+           shiftedFibonacci(uint(index), uint(set.count), set.shift);
+}
+
+// 0 <= index < fixedCount: FieldControl::fixedRayDirections().
+KERNEL_FN vec3 fixedRayOfSet(IN(RaySet) set, int index) {
+    return sphericalFibonacci(uint(index), uint(set.fixedCount));
+}
+
 KERNELS_END
+
+#ifdef __cplusplus
+namespace probegi::kernels {
+static_assert(sizeof(RaySet) == 52 && offsetof(RaySet, shift) == 36);
+}  // namespace probegi::kernels
+#endif
 
 #endif

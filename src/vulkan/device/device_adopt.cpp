@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <string_view>
+#include <vector>
 
 #include "core/sentence.h"
 #include "vulkan/device/device_impl.h"
@@ -34,6 +36,19 @@ void require(const std::string& missing) {
                       sentence("the engine's device lacks ", missing, "; enable it or use the CPU backend"));
 }
 
+// The queue families that share buffers and images, each once; none where there is only one.
+std::vector<std::uint32_t> sharingFamilies(const AdoptDesc& desc, std::size_t families) {
+    std::vector<std::uint32_t> sharing{desc.queueFamily};
+    for (const std::uint32_t family : desc.readingFamilies) {
+        if (family >= families)
+            throw Failure(ErrorCode::invalidArgument, sentence("AdoptDesc::readingFamilies has ", family,
+                                                               "; the device has ", families, " queue families"));
+        if (std::find(sharing.begin(), sharing.end(), family) == sharing.end()) sharing.push_back(family);
+    }
+    if (sharing.size() == 1) sharing.clear();
+    return sharing;
+}
+
 }  // namespace
 
 Result<Device> Device::adopt(const Context& context, const AdoptDesc& desc) {
@@ -56,6 +71,7 @@ Result<Device> Device::adopt(const Context& context, const AdoptDesc& desc) {
                           sentence("queue family ", desc.queueFamily, " has no compute; choose one that has"));
         impl->device = vk::raii::Device(impl->physical, desc.device);
         impl->family = desc.queueFamily;
+        impl->sharing = sharingFamilies(desc, families.size());
         impl->debugUtilsEnabled = contains(desc.instanceExtensions, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
         impl->allocator = desc.allocator;
         impl->info = describe(impl->physical, 0);

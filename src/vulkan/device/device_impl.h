@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <optional>
+#include <vector>
 
 #include "probegi/vulkan.h"
 #include "vulkan/device/pipelines.h"
@@ -37,6 +38,7 @@ struct Device::Impl {
     bool debugUtilsEnabled = false;
     bool rayQuery = false;
     std::uint32_t family = 0;
+    std::vector<std::uint32_t> sharing;  ///< families that share buffers and images; empty: `family` has them alone
     DeviceInfo info;
     vk::PhysicalDeviceLimits limits;
     vk::PhysicalDeviceMemoryProperties memoryProperties;

@@ -47,9 +47,13 @@ void allocateOwn(const Device::Impl& device, const VkMemoryRequirements& needs, 
     out.memory = memory.release();
 }
 
+vk::SharingMode sharingMode(const Device::Impl& device) {
+    return device.sharing.empty() ? vk::SharingMode::eExclusive : vk::SharingMode::eConcurrent;
+}
+
 vk::raii::Buffer makeBuffer(const Device::Impl& device, std::size_t bytes, vk::BufferUsageFlags usage) {
     if (bytes > device.maxBufferBytes) throw vk::OutOfDeviceMemoryError("larger than any buffer");
-    return {device.device, vk::BufferCreateInfo({}, bytes, usage)};
+    return {device.device, vk::BufferCreateInfo({}, bytes, usage, sharingMode(device), device.sharing)};
 }
 
 vk::raii::Image makeImage(const Device::Impl& device, vk::Format format, vk::Extent2D size, std::uint32_t layers) {
@@ -60,7 +64,8 @@ vk::raii::Image makeImage(const Device::Impl& device, vk::Format format, vk::Ext
     const VkDeviceSize bytes = VkDeviceSize(size.width) * size.height * layers * vk::blockSize(format);
     if (bytes > most.maxResourceSize) throw vk::OutOfDeviceMemoryError("larger than any image");
     return {device.device, vk::ImageCreateInfo({}, vk::ImageType::e2D, format, vk::Extent3D(size, 1), 1, layers,
-                                               vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal, usage)};
+                                               vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal, usage,
+                                               sharingMode(device), device.sharing)};
 }
 
 }  // namespace

@@ -62,7 +62,8 @@ FieldPasses::FieldPasses(const Device& device, const FieldDesc& desc)
       m_volumes(makeVolumes(desc)),
       m_byDensity(volumesByDensity(desc)),
       m_constants(device.impl(), "field constants", sizeof(kernels::FieldConstants),
-                  vk::BufferUsageFlagBits::eUniformBuffer | vk::BufferUsageFlagBits::eTransferDst),
+                  vk::BufferUsageFlagBits::eUniformBuffer | vk::BufferUsageFlagBits::eStorageBuffer |
+                      vk::BufferUsageFlagBits::eTransferDst),
       m_states(device.impl(), "probe states", sizeof(std::uint32_t) + m_layout.probes * sizeof(kernels::ProbeStatus),
                vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst |
                    vk::BufferUsageFlagBits::eTransferSrc),
@@ -114,7 +115,8 @@ kernels::FieldConstants FieldPasses::constants(const FieldSettings& settings) co
         .irradianceTexelSize = texelSize(m_irradiance),
         .visibilityTexelSize = texelSize(m_visibility),
         .volumes = {},
-        .blending = blending(settings)};
+        .blending = blending(settings),
+        .rays = m_rays};
     std::copy(m_volumes.begin(), m_volumes.end(), c.volumes);
     return c;
 }
@@ -149,7 +151,8 @@ void FieldPasses::writeSet() {
         vk::WriteDescriptorSet(set(), 5, 0, 1, vk::DescriptorType::eStorageImage, &images[1]), {});
 }
 
-void FieldPasses::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBinding) const {
+void FieldPasses::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBinding,
+                                     QueryConstants constantsKind) const {
     const Device::Impl& device = m_device.impl();
     const vk::Sampler sampler = *device.pipelines->layout().sampler;
     const vk::DescriptorBufferInfo constants(m_constants.handle(), 0, VK_WHOLE_SIZE);
@@ -157,10 +160,11 @@ void FieldPasses::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBin
     const vk::DescriptorImageInfo images[] = {{sampler, m_irradiance.view(), vk::ImageLayout::eGeneral},
                                               {sampler, m_visibility.view(), vk::ImageLayout::eGeneral}};
     using Type = vk::DescriptorType;
-    const vk::WriteDescriptorSet writes[] = {{set, firstBinding, 0, 1, Type::eUniformBuffer, nullptr, &constants},
-                                             {set, firstBinding + 1, 0, 1, Type::eCombinedImageSampler, &images[0]},
-                                             {set, firstBinding + 2, 0, 1, Type::eCombinedImageSampler, &images[1]},
-                                             {set, firstBinding + 3, 0, 1, Type::eStorageBuffer, nullptr, &states}};
+    const vk::WriteDescriptorSet writes[] = {
+        {set, firstBinding, 0, 1, constantsType(constantsKind), nullptr, &constants},
+        {set, firstBinding + 1, 0, 1, Type::eCombinedImageSampler, &images[0]},
+        {set, firstBinding + 2, 0, 1, Type::eCombinedImageSampler, &images[1]},
+        {set, firstBinding + 3, 0, 1, Type::eStorageBuffer, nullptr, &states}};
     device.device.updateDescriptorSets(writes, {});
 }
 
@@ -187,7 +191,7 @@ void FieldPasses::makeRayBuffers(int looks) {
     m_fixedRays = std::move(fixedRays);
 }
 
-void FieldPasses::recordClear(const Recorder& recorder, const FieldSettings& settings) {
+void FieldPasses::recordClear(const Recorder& recorder, const FieldSettings& settings, const kernels::RaySet& rays) {
     // Wait for all earlier uses of the probes: their contents are discarded, but a layout change is a write too.
     recorder.orderAll();
     const auto used = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite;
@@ -211,6 +215,7 @@ void FieldPasses::recordClear(const Recorder& recorder, const FieldSettings& set
     m_listed = false;
     m_recordedSettings = settings;
     m_recordedTasks.reset();
+    m_rays = rays;
     recorder.write(m_constants, bytesOf(constants(settings)));
     recorder.orderAll();
 }
@@ -294,9 +299,10 @@ void FieldPasses::recordCounts(const Recorder& recorder, const UpdateFrame& fram
     recorder.orderAll();
 }
 
-void FieldPasses::recordLook(const Recorder& recorder, VkDeviceAddress rayData) {
+void FieldPasses::recordLook(const Recorder& recorder, const RayAddresses& data) {
     kernels::PlacesPush push = m_places;  // the bounds and tasks that were listed, whatever came since
-    push.rayData = packAddress(rayData);
+    push.rayData = packAddress(data.update);
+    if (data.format == RayFormat::packed) push.flags |= kernels::kPlacesPackedRays;
     recorder.push(push);
     recorder.dispatchIndirect("look_around", m_tasks, offsetof(kernels::GpuTaskCounts, perTask));
     recorder.orderAll();
@@ -424,7 +430,8 @@ void FieldPasses::recordBlend(const Recorder& recorder, const UpdateFrame& frame
         .looks = data.looks,
         .steps = frame.windows || !frame.events.empty() ? packAddress(m_steps.address()) : kernels::uvec2(0),
         .changes = packAddress(m_changes.address()),
-        .filters = packAddress(m_filters.address())});
+        .filters = packAddress(m_filters.address()),
+        .packedRays = data.format == RayFormat::packed ? 1 : 0});
     {
         const PassScope scope(recorder, m_device.impl(), profiler, "blend irradiance");
         recorder.dispatchIndirect("blend_irradiance", m_tasks, offsetof(kernels::GpuTaskCounts, irradiance),
@@ -479,7 +486,9 @@ kernels::FilterPush FieldPasses::filterPush(const UpdateFrame& frame, const RayA
             .rayData = packAddress(own ? data.update : data.fixed),
             .directions = packAddress(m_directions.address() + m_layout.rays * sizeof(glm::vec3)),
             .rays = int(own ? m_layout.rays : frame.fixedDirections.size()),
-            .ownRays = own ? 1 : 0,
+            .ownRays = !own                               ? 0
+                       : data.format == RayFormat::packed ? kernels::kOwnRaysPacked
+                                                          : 1,
             .texels = int(m_layout.irradianceTexels),
             .longestWindow = frame.windows ? frame.longestWindow : 1.0f / (1.0f - frame.hysteresis.irradiance),
             .longestVisibilityWindow = frame.longestVisibilityWindow,
@@ -506,6 +515,9 @@ void FieldPasses::beginUpdate(const Recorder& recorder, const UpdateFrame& frame
     recorder.write(m_directions, std::as_bytes(frame.directions));
     recorder.write(m_directions, std::as_bytes(frame.fixedDirections), frame.directions.size_bytes());
     if (!frame.events.empty()) recorder.write(m_events, std::as_bytes(frame.events.all()));
+    // No pass of this update asks for them: shaders of the caller do, after it.
+    m_rays = frame.nextRays;
+    recorder.write(m_constants, bytesOf(m_rays), offsetof(kernels::FieldConstants, rays));
     recorder.transferToCompute();
     recorder.bindVolume(set());
     recordTasks(recorder, frame, looks);

@@ -13,11 +13,18 @@ namespace probegi::vulkan {
 
 /// Addresses of an update's ray data and of the light of its emitter samples.
 struct RayAddresses {
-    VkDeviceAddress update = 0;         ///< RayDatum[task][ray]
+    VkDeviceAddress update = 0;         ///< RayDatum[task][ray], or as `format` says
     VkDeviceAddress fixed = 0;          ///< FixedRayDatum[task][ray]; 0 if the frame has no fixed rays
     VkDeviceAddress emitterLights = 0;  ///< EmitterLight[task][look]
     int looks = 0;                      ///< emitter samples per task; 0: none
+    RayFormat format = RayFormat::full;
 };
+
+/// Of the first binding of query.glsl.
+inline vk::DescriptorType constantsType(QueryConstants constants) noexcept {
+    return constants == QueryConstants::storageBuffer ? vk::DescriptorType::eStorageBuffer
+                                                      : vk::DescriptorType::eUniformBuffer;
+}
 
 /// What relocation and states of recorded updates need to know besides the frame.
 struct PlacesFrame {
@@ -52,9 +59,9 @@ public:
     /// After recordPlaces(): the sizes of dispatches over the tasks, for callers that trace.
     void recordCounts(const Recorder& recorder, const UpdateFrame& frame);
     /// After recordUpdate() with the caller's rays: they place new probes.
-    void recordLook(const Recorder& recorder, VkDeviceAddress rayData);
-    /// Clears all probes. From here on, `settings` are what shaders that read the field see.
-    void recordClear(const Recorder& recorder, const FieldSettings& settings);
+    void recordLook(const Recorder& recorder, const RayAddresses& data);
+    /// Clears all probes. From here on, `settings` and `rays` are what shaders that read the field see.
+    void recordClear(const Recorder& recorder, const FieldSettings& settings, const kernels::RaySet& rays = {});
     /// Traces and shades the rays of the tasks, then blends the ray data.
     void recordUpdate(const Recorder& recorder, const UpdateFrame& frame, const GpuScene& scene,
                       const GpuLighting& lighting, Profiler* profiler);
@@ -74,7 +81,8 @@ public:
     }
 
     vk::DescriptorSet set() const noexcept { return *m_sets.front(); }
-    void writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBinding) const;
+    void writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBinding,
+                            QueryConstants constants = QueryConstants::uniformBuffer) const;
     FieldMemory memory() const noexcept;
 
     const FieldDesc& desc() const noexcept { return m_desc; }
@@ -138,6 +146,7 @@ private:
     std::optional<FieldSettings> m_recordedSettings;
     std::optional<std::uint32_t> m_recordedTasks;   // UpdateFrame::taskList
     std::optional<std::uint32_t> m_recordedChoice;  // PlacesFrame::chosenList
+    kernels::RaySet m_rays{};                       // of the update after the last recorded one
     kernels::PlacesPush m_places{};                 // of the last recordPlaces()
     bool m_listed = false;                          // the tasks of the coming update are in m_tasks
     bool m_hasNew = true;                           // some probes may await their placement

@@ -49,7 +49,8 @@ Result<void> GpuField::recordSettings(VkCommandBuffer commands) {
 
 Result<void> GpuField::recordClear(VkCommandBuffer commands) {
     return m_impl->recorded("recording the clearing of probes", [&] {
-        m_impl->passes.recordClear({m_impl->passes.device().impl(), commands}, m_impl->control.settings());
+        m_impl->passes.recordClear({m_impl->passes.device().impl(), commands}, m_impl->control.settings(),
+                                   m_impl->books().raySet(0));
         m_impl->books().restart();
         m_impl->listedRays = {};
     });
@@ -111,7 +112,7 @@ Result<void> GpuField::recordUpdate(VkCommandBuffer commands, const BufferRange&
 }
 
 Result<void> GpuField::recordUpdate(VkCommandBuffer commands, const BufferRange& rayData, const BufferRange& fixedRays,
-                                    Profiler* profiler) {
+                                    Profiler* profiler, RayFormat format) {
     FieldControl::Impl& books = m_impl->books();
     const bool watched = m_impl->passes.watched();
     if (watched && !m_impl->listedRays)
@@ -120,14 +121,16 @@ Result<void> GpuField::recordUpdate(VkCommandBuffer commands, const BufferRange&
                     "rays of the tasks in taskBuffer()");
     const std::size_t rays = watched ? m_impl->listedRays->update : books.rayCount(),
                       fixed = watched ? m_impl->listedRays->fixed : books.fixedRayCount();
-    if (auto ok = checkRange(rayData, "rayData", rays, sizeof(RayDatum)); !ok) return ok;
+    const std::size_t size = format == RayFormat::packed ? sizeof(PackedRayDatum) : sizeof(RayDatum);
+    if (auto ok = checkRange(rayData, "rayData", rays, size); !ok) return ok;
     if (!fixedRays.empty())
         if (auto ok = checkRange(fixedRays, "fixedRays", fixed, sizeof(FixedRayDatum)); !ok) return ok;
     return m_impl->recorded("recording an update", [&] {
         const UpdateFrame frame = fixedRays.empty() ? books.comingUpdateWithoutFixedRays() : books.comingUpdate();
-        m_impl->passes.recordUpdate({m_impl->passes.device().impl(), commands}, frame,
-                                    RayAddresses{rayData.address, fixedRays.address}, profiler);
-        if (watched) m_impl->passes.recordLook({m_impl->passes.device().impl(), commands}, rayData.address);
+        const RayAddresses data{.update = rayData.address, .fixed = fixedRays.address, .format = format};
+        const Recorder recorder{m_impl->passes.device().impl(), commands};
+        m_impl->passes.recordUpdate(recorder, frame, data, profiler);
+        if (watched) m_impl->passes.recordLook(recorder, data);
         m_impl->listedRays = {};
         books.advance();
     });
@@ -142,15 +145,16 @@ Result<void> GpuField::recordQuery(VkCommandBuffer commands, VkDeviceAddress que
 }
 
 std::array<VkDescriptorSetLayoutBinding, kQueryBindings> GpuField::queryBindings(std::uint32_t firstBinding,
-                                                                                 VkShaderStageFlags stages) noexcept {
-    return {{{firstBinding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, stages, nullptr},
+                                                                                 VkShaderStageFlags stages,
+                                                                                 QueryConstants constants) noexcept {
+    return {{{firstBinding, VkDescriptorType(constantsType(constants)), 1, stages, nullptr},
              {firstBinding + 1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages, nullptr},
              {firstBinding + 2, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages, nullptr},
              {firstBinding + 3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, stages, nullptr}}};
 }
 
-void GpuField::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBinding) const {
-    m_impl->passes.writeQueryBindings(set, firstBinding);
+void GpuField::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBinding, QueryConstants constants) const {
+    m_impl->passes.writeQueryBindings(set, firstBinding, constants);
 }
 
 }  // namespace probegi::vulkan

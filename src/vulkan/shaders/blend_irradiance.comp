@@ -44,7 +44,7 @@ void loadRays(int tasks, int firstTask, int firstRay, inout uvec4 seen) {
     for (int p = 0; p < 4; ++p) {
         const int task = firstTask + 4 * four + p;
         if (ray >= push.rays || task >= tasks) continue;
-        const RayDatum d = RayData(push.rayData).at[task * push.rays + ray];
+        const RayDatum d = rayDatumAt(push.rayData, push.packedRays != 0, uint(task * push.rays + ray));
         const float distance = safeDistance(d.distance);
         const vec3 light = arrivingRadiance(distance, d.radiance);
         const bool backface = hitBackface(distance, d.radiance.x);

@@ -58,7 +58,7 @@ void loadDistances(int firstTask, int first) {
         vec4 d;
         for (int p = 0; p < kProbes; ++p) {
             const int task = min(firstTask + p, last);
-            const RayDatum datum = RayData(push.rayData).at[task * push.rays + first + i];
+            const RayDatum datum = rayDatumAt(push.rayData, push.packedRays != 0, uint(task * push.rays + first + i));
             const float distance = safeDistance(datum.distance);
             const bool backface = hitBackface(distance, datum.radiance.x);
             d[p] = visibilityDistance(backface ? distance : abs(distance), farthest[p]);

@@ -16,7 +16,8 @@ void main() {
     PlaceSight sight = nothingSeen();
     int counted = 0;
     for (int ray = 0; ray < push.rays; ++ray) {
-        const RayDatum d = RayData(push.rayData).at[int(index) * push.rays + ray];
+        const RayDatum d =
+            rayDatumAt(push.rayData, (push.flags & kPlacesPackedRays) != 0, index * uint(push.rays) + uint(ray));
         const vec3 direction = Vec3s(push.directions).at[ray];
         const float distance = safeDistance(d.distance);
         const bool hit = distance < kMissDistance;

@@ -13,7 +13,7 @@ ProbeSight sightOfTask(uint task, float farthest) {
     for (int ray = 0; ray < push.rays; ++ray) {
         const uint at = task * uint(push.rays) + uint(ray);
         if (push.ownRays != 0) {
-            const RayDatum d = RayData(push.rayData).at[at];
+            const RayDatum d = rayDatumAt(push.rayData, push.ownRays == kOwnRaysPacked, at);
             addOwnRayToSight(sum, d.radiance, d.distance);
         } else {
             const FixedRayDatum d = FixedRays(push.rayData).at[at];

@@ -9,7 +9,8 @@
 //
 // Needs GLSL 4.60 and GL_EXT_scalar_block_layout. All names begin with probegi or PROBEGI, or are those of the kernels
 // included below. If PROBEGI_COUNT_FALLBACKS is defined, queries whose cage had too little weight are counted for
-// Field::fallbackQueries(); the shader stage then needs atomics on storage buffers.
+// Field::fallbackQueries(); the shader stage then needs atomics on storage buffers. If PROBEGI_CONSTANTS_IN_BUFFER is
+// defined, the first binding is a storage buffer: QueryConstants::storageBuffer.
 #ifndef PROBEGI_QUERY_GLSL
 #define PROBEGI_QUERY_GLSL
 
@@ -18,6 +19,7 @@
 #include "kernels/abi/field_constants.h"
 #include "kernels/lookup/access.h"
 #include "kernels/probe/octahedral.h"
+#include "kernels/probe/packed_ray.h"
 #include "kernels/volume/placed_probe.h"
 #include "kernels/volume/volume_choice.h"
 
@@ -32,10 +34,17 @@
 #else
 #define PROBEGI_STATES_ACCESS readonly
 #endif
+#ifdef PROBEGI_CONSTANTS_IN_BUFFER
+#define PROBEGI_CONSTANTS_ACCESS readonly buffer
+#else
+#define PROBEGI_CONSTANTS_ACCESS uniform
+#endif
 
-layout(set = PROBEGI_SET, binding = PROBEGI_BINDING, scalar) uniform ProbegiConstants {
-    FieldConstants probegiField;
-};
+layout(set = PROBEGI_SET, binding = PROBEGI_BINDING, scalar) PROBEGI_CONSTANTS_ACCESS ProbegiConstants {
+    FieldConstants field;
+}
+probegiConstants;
+#define probegiField probegiConstants.field
 layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 1) uniform sampler2DArray probegiIrradianceAtlas;
 layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 2) uniform sampler2DArray probegiVisibilityAtlas;
 layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 3, scalar) PROBEGI_STATES_ACCESS buffer ProbegiStates {
@@ -59,6 +68,27 @@ int probegiProbeCount() {
 vec3 probegiProbePosition(int slot) {
     const Volume v = probegiField.volumes[probegiVolumeOf(slot)];
     return placedPosition(v, probeCell(v, slot), probegiStates.at[slot].placement);
+}
+
+// The directions of the coming update's rays, the same for all probes: those of FieldControl::rayDirections() and
+// fixedRayDirections(), but for rounding. 0 <= ray < the number of them.
+int probegiRayCount() {
+    return probegiField.rays.count;
+}
+vec3 probegiRayDirection(int ray) {
+    return rayOfSet(probegiField.rays, ray);
+}
+int probegiFixedRayCount() {
+    return probegiField.rays.fixedCount;
+}
+vec3 probegiFixedRayDirection(int ray) {
+    return fixedRayOfSet(probegiField.rays, ray);
+}
+
+// A ray's datum in 8 bytes, for RayFormat::packed; radiance and distance as in RayDatum.
+uvec2 probegiPackRay(vec3 radiance, float distance) {
+    return uvec2(packRadiance(unsignedRadiance(distance, radiance)),
+                 floatBitsToUint(packRayDistance(distance, radiance.x)));
 }
 
 // Atlas coordinates of a point of a slot's map; `texel` is the point's octTexelPosition().

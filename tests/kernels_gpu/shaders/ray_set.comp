@@ -22,5 +22,12 @@ void evaluate(INOUT(Lane) lane) {
     const vec2 u = takeUnit2(lane);
     giveRotation(lane, randomRotation(u1, u.x, u.y));
     const uint seed = takeBits(lane);
-    giveRotation(lane, frameRotation(seed, takeBits(lane)));
+    const mat3 turned = frameRotation(seed, takeBits(lane));
+    giveRotation(lane, turned);
+    RaySet set;
+    for (int axis = 0; axis < 3; ++axis) set.turned[axis] = turned[axis];
+    set.shift = shift;
+    set.count = set.fixedCount = int(count);
+    giveVec3(lane, rayOfSet(set, int(index)), 1.5e-5f);
+    giveVec3(lane, fixedRayOfSet(set, int(index)), 5e-6f);
 }
