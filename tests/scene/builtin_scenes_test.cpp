@@ -204,6 +204,24 @@ TEST(Builtin, TheAtriumIsLarge) {
     EXPECT_GE(triangleCount(scene, poseAt(scene)), 100'000u);
 }
 
+TEST(Builtin, TheTerrainIsAMillionTrianglesWithoutSeams) {
+    const auto built = build("terrain", {});
+    EXPECT_GE(triangleCount(built->scene, built->pose), 1'000'000u);
+    // Straight down everywhere, on the tiles' seams too: always ground, a stone or a hut, from its front.
+    std::vector<Ray> rays;
+    for (int i = 0; i < 60; ++i)
+        for (int j = 0; j < 60; ++j)
+            rays.push_back({.origin = {-126.0f + 4.2f * float(i), 60,
+                                       j % 2 ? -64.0f + 32.0f * float(j % 5) : 2.1f * float(j - 30)},
+                            .direction = {0, -1, 0}});
+    const Seen seen = look(*built->tracer, rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_TRUE(seen.hits[i].valid()) << i;
+        EXPECT_FALSE(seen.surfaces[i].back) << i;
+        EXPECT_GT(seen.surfaces[i].position.y, 0.0f) << i;
+    }
+}
+
 TEST(Builtin, TheSphereHasTheAreaAndTheLightItClaims) {
     BuiltinParams params;
     params.radius = 2.5f;

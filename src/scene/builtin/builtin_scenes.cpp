@@ -20,6 +20,8 @@ constexpr std::array kEntries{
           builtin::makeAtrium},
     Entry{{"house", "a furnished two-storey house with coloured rooms, lit by sun and sky through its windows"},
           builtin::makeHouse},
+    Entry{{"terrain", "hills with huts and stones under the open sky: a million triangles, most of them instances"},
+          builtin::makeTerrain},
     Entry{{"cornell", "the Cornell box: red and green walls, two blocks, a lamp in the ceiling"}, builtin::makeCornell},
     Entry{{"two-rooms", "a sunlit room and a second one that gets its light through the doorway (wallThickness)"},
           builtin::makeTwoRooms},
