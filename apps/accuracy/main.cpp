@@ -86,7 +86,7 @@ Result<std::string> surfaces(const Context& context, const Options& options) {
 /// The table of relocation and states.
 Result<std::string> placement(const Context& context, const Options& options) {
     std::vector<PlacementRow> rows;
-    for (const char* name : {"two-rooms", "house", "atrium", "sponza"}) {
+    for (const char* name : {"two-rooms", "house", "atrium", "sponza", "terrain"}) {
         if (!options.scene.empty() && options.scene != name) continue;
         tool::SceneOptions scene;
         scene.scene = "builtin:" + std::string(name);

@@ -13,7 +13,7 @@ file(COPY ${EXAMPLES}/ DESTINATION ${WORK}/source)
 run(${CMAKE_COMMAND} -S ${WORK}/source -B ${WORK}/build -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DCMAKE_CXX_FLAGS=${flags})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
-set(examples own_tracer first_light engine_loop moving_door)
+set(examples own_tracer first_light engine_loop moving_door "fog 90")
 if(VULKAN)
     list(APPEND examples "vulkan_engine ${FILM}")
 endif()
