@@ -74,6 +74,7 @@ struct GpuProbeStep {
     float lagShare;        // of its irradiance, relative
     float irradianceKept;  // share of the old values that is kept
     float visibilityKept;
+    float ownLag;  // kernels/blend/temporal_filter.h
 };
 
 // The passes around a blend with windows (probe_lag.comp, probe_windows.comp, probe_filter.comp).
@@ -90,7 +91,8 @@ struct FilterPush {
     float longestWindow;  // updates; forget: the windows
     float longestVisibilityWindow;
     uint ditherSeed;
-    int forget;  // 1: probe_filter.comp only writes forgottenFilter()
+    int forget;      // 1: probe_filter.comp only writes forgottenFilter()
+    uvec2 progress;  // out: ProbeProgress[slot] of the tasks, for a schedule; 0: nobody asks
 };
 
 // Less of the old values where changes were announced (probe_events.comp): after probe_windows.comp, or in its place
@@ -104,6 +106,7 @@ struct EventPush {
     int windows;                 // 1: steps and filters have windows
     float irradianceHysteresis;  // without windows: of probes outside
     float visibilityHysteresis;
+    uvec2 limits;  // EventLimit[slot], besides the regions; 0: none
 };
 
 // Both blends (blend_irradiance.comp, blend_visibility.comp).
@@ -265,8 +268,8 @@ static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(Ble
               sizeof(EnterPush) == 40 && sizeof(PlacementsPush) == 28 && sizeof(PlacesPush) == 88 &&
               sizeof(TracePush) == 76);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 104);
-static_assert(sizeof(TasksPush) == 24 && sizeof(FilterPush) == 76 && sizeof(EventPush) == 48 &&
-              sizeof(EventRegion) == 32 && sizeof(GpuProbeStep) == 80);
+static_assert(sizeof(TasksPush) == 24 && sizeof(FilterPush) == 84 && sizeof(EventPush) == 56 &&
+              sizeof(EventRegion) == 32 && sizeof(GpuProbeStep) == 84);
 static_assert(sizeof(ToneMapPush) == 36 && sizeof(GpuSurface) == 76);
 }  // namespace probegi::kernels
 #endif
