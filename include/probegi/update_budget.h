@@ -25,7 +25,7 @@ struct BudgetView {
 /// Probes that have converged - they see no change beyond the noise that is left, and that is below 1 % or their
 /// window is at its longest - pause: only the first quarter updates them, until they or a neighbour see a change, or
 /// one is announced. So an update may cost less than its budget. With FieldRules::paper nobody knows what probes see,
-/// and none pauses.
+/// and none pauses. Snapshots do not hold any of this: after Field::write all probes count as young.
 struct UpdateBudget {
     /// Rays of an update, >= 0: raysPerProbe, the fixed rays and emitterSamples of each probe that it updates. At least
     /// those of one probe; 0: no limit. Not counted: shadow rays at hits, and the rays that place new probes

@@ -171,8 +171,9 @@ struct PlacesPush {
     uint listed;  // chosen ones, or all
     uint moving;
     uint media;
-    int rays;   // of the caller, a task
-    int flags;  // kPlacesRelocate, kPlacesSleep
+    int rays;        // of the caller, a task
+    int flags;       // kPlacesRelocate, kPlacesSleep
+    uvec2 progress;  // out: ProbeProgress[slot], for a schedule that does not know who sleeps; 0: nobody asks
 };
 KERNEL_CONST int kPlacesRelocate = 1;
 KERNEL_CONST int kPlacesSleep = 2;
@@ -265,7 +266,7 @@ KERNELS_END
 namespace probegi::kernels {
 static_assert(offsetof(SceneConstants, tracer) == 140 && sizeof(SceneConstants) == 204 && sizeof(LightingBlock) == 40);
 static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(BlendPush) == 112 &&
-              sizeof(EnterPush) == 40 && sizeof(PlacementsPush) == 28 && sizeof(PlacesPush) == 88 &&
+              sizeof(EnterPush) == 40 && sizeof(PlacementsPush) == 28 && sizeof(PlacesPush) == 96 &&
               sizeof(TracePush) == 76);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 104);
 static_assert(sizeof(TasksPush) == 24 && sizeof(FilterPush) == 84 && sizeof(EventPush) == 56 &&

@@ -233,9 +233,18 @@ struct ProbeProgress {
     float confidence;  // its window over the longest there is, 0..1
 };
 
+// Of a probe that no update has.
+KERNEL_FN ProbeProgress noProgress() {
+    ProbeProgress progress;
+    progress.lag = 0.0f;
+    progress.noise = 0.0f;
+    progress.confidence = 0.0f;
+    return progress;
+}
+
 KERNEL_FN ProbeProgress probeProgress(float lagSeen, ProbeFilter state, float backfaceShare) {
     const float heard = backfaceShare < kInsideShare + kInsideShareEdge ? 1.0f : 0.0f;
-    ProbeProgress progress;
+    ProbeProgress progress = noProgress();
     progress.lag = heard * lagSeen;
     progress.noise = heard * state.noise / sqrt(max(2.0f * state.window - 1.0f, 1.0f));
     progress.confidence = state.window / kLongestWindow;

@@ -257,7 +257,8 @@ kernels::PlacesPush FieldPasses::placesPush(const UpdateFrame& frame, const Plac
             .media = std::uint32_t(places.media.size()),
             .rays = int(frame.directions.size()),
             .flags = (frame.desc.relocation ? kernels::kPlacesRelocate : 0) |
-                     (frame.desc.probeStates ? kernels::kPlacesSleep : 0)};
+                     (frame.desc.probeStates ? kernels::kPlacesSleep : 0),
+            .progress = frame.reportsProgress ? packAddress(m_progress.address()) : kernels::uvec2(0)};
 }
 
 void FieldPasses::recordPlaces(const Recorder& recorder, const UpdateFrame& frame, const PlacesFrame& places,
@@ -268,6 +269,7 @@ void FieldPasses::recordPlaces(const Recorder& recorder, const UpdateFrame& fram
         pipelines.get(scene->impl().shader("place_probes"));
     else
         pipelines.get("look_around");
+    makeBudgetBuffers(frame);
     recordSettings(recorder, frame.settings);
     recorder.orderAll();
     std::vector<kernels::GpuBounds> bounds;

@@ -1,0 +1,79 @@
+// Budgets in a scene: probes pause, and wake where they see a change.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "probegi/builtin_scenes.h"
+#include "probegi/field.h"
+#include "support/field_setup.h"
+
+namespace probegi {
+namespace {
+
+using test::FieldSetup;
+
+// Two rooms with a closed wall between them, each with a lamp.
+class FieldBudget : public testing::Test {
+protected:
+    FieldBudget() {
+        setup.volumes = {*placeVolume(pose.bounds, {.counts = {14, 5, 6}})};
+        setup.raysPerProbe = 64;
+        for (const float x : {-2.0f, 2.0f}) {
+            PlacedLight lamp;
+            lamp.type = LightType::point;
+            lamp.position = pose.bounds.centre() + glm::vec3(x, 0, 0);
+            lamp.intensity = glm::vec3(3.0f);
+            lighting.lights.push_back(lamp);
+        }
+        UpdateBudget budget;
+        const int each = setup.raysPerProbe + setup.fixedRays + setup.emitterSamples;
+        budget.rays = std::int64_t(each) * probeCount(setup) / 2;
+        field.emplace(*Field::create(context, setup, setup));
+        field->control().setBudget(budget).value();
+    }
+    // Returns how often each probe was updated.
+    std::vector<int> update(int count) {
+        std::vector<int> times(std::size_t(probeCount(setup)), 0);
+        for (int i = 0; i < count; ++i) {
+            for (const ProbeTask& task : field->control().tasks()) ++times[task.slot];
+            EXPECT_TRUE(field->update(*tracer, lighting));
+        }
+        return times;
+    }
+    // Mean over the probes that far from the wall between the rooms, on one side of it.
+    double meanOf(const std::vector<int>& times, float side) const {
+        double sum = 0;
+        int count = 0;
+        for (int slot = 0; slot < probeCount(setup); ++slot) {
+            const glm::vec3 p = field->control().probePosition(slot);
+            const glm::vec3 from = p - pose.bounds.centre();
+            if (side * from.x < 2.2f * setup.volumes[0].spacing.x) continue;
+            if (glm::any(glm::greaterThan(glm::abs(from), 0.42f * pose.bounds.size()))) continue;
+            sum += times[std::size_t(slot)];
+            ++count;
+        }
+        EXPECT_GT(count, 10);
+        return sum / count;
+    }
+
+    Context context = *Context::create({.threads = 2});
+    Scene scene = *makeBuiltinScene("dark-room");
+    ScenePose pose = poseAt(scene);
+    Lighting lighting;
+    std::unique_ptr<Tracer> tracer = *makeEmbreeTracer(context, scene, pose);
+    FieldSetup setup;
+    std::optional<Field> field;
+};
+
+TEST_F(FieldBudget, probesPauseAndThoseThatSeeAChangeWake) {
+    update(90);
+    const double before = double(field->control().tasks().size()) / probeCount(setup);
+    EXPECT_LT(before, 0.25) << "most have converged; an eighth is for those that waited longest";
+    lighting.lights[0].intensity *= 3.0f;
+    const std::vector<int> times = update(16);
+    EXPECT_GT(meanOf(times, -1), 5.0);
+    EXPECT_LT(meanOf(times, 1), 3.0) << "beyond the wall each had its turn, once in eight updates";
+}
+
+}  // namespace
+}  // namespace probegi
