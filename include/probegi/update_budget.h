@@ -19,13 +19,15 @@ struct BudgetView {
 /// A quarter of the probes that the budget pays for are those that were not updated for longest, whatever they are:
 /// with so many a frame, r, each of n active probes is updated at least once in n / r frames, rounded up. The others
 /// are, in this order: probes that were never updated; those near announced changes (FieldControl::notify); and by
-/// how far their light may be off - the change that they or their neighbours saw, and the noise of their average -
-/// times the frames since their update, times how near the camera they are and whether the view shows what they light.
+/// how far their light may be off - the change that they or their neighbours saw, and the noise of their average, as
+/// radiance beside the mean of all probes, squared - times the frames since their update, times how near the camera
+/// they are and whether the view shows what they light.
 ///
-/// Probes that have converged - they see no change beyond the noise that is left, and that is below 1 % or their
-/// window is at its longest - pause: only the first quarter updates them, until they or a neighbour see a change, or
-/// one is announced. So an update may cost less than its budget. With FieldRules::paper nobody knows what probes see,
-/// and none pauses. Snapshots do not hold any of this: after Field::write all probes count as young.
+/// Probes that have converged - they see no change beyond the noise that is left, and that is below 1 % of the mean
+/// light of all probes or their window is at its longest - pause: only the first quarter updates them, until they or a
+/// neighbour see a change, or one is announced. So an update may cost less than its budget. With FieldRules::paper
+/// nobody knows what probes see, and none pauses. Snapshots do not hold any of this: after Field::write all probes
+/// count as young.
 struct UpdateBudget {
     /// Rays of an update, >= 0: raysPerProbe, the fixed rays and emitterSamples of each probe that it updates. At least
     /// those of one probe; 0: no limit. Not counted: shadow rays at hits, and the rays that place new probes

@@ -24,6 +24,9 @@ constexpr std::size_t kReserve = 4;
 constexpr std::uint8_t kYoungUpdates = 8;
 // How far the light of a young probe may be off, over the root of its updates, whatever it says itself.
 constexpr float kYoungError = 0.5f;
+// Floor of a probe's brightness relative to the mean of all: in the dark a large share is little light, but not
+// nothing.
+constexpr float kDarkest = 0.05f;
 // Noise left in a converged average.
 constexpr float kConvergedNoise = 0.01f;
 // Lag below it may be the storage's rounding.
@@ -111,8 +114,20 @@ std::vector<float> UpdateSchedule::heardLags(std::span<const ProbeTask> candidat
     return heard;
 }
 
-// Grows with the expected square of the error of the probe's light, and with the time that it has waited.
-float UpdateSchedule::priority(const Probe& probe, bool isNew, float heardLag) const noexcept {
+float UpdateSchedule::meanLevel(std::span<const ProbeTask> candidates) const noexcept {
+    double sum = 0;
+    int count = 0;
+    for (const ProbeTask& task : candidates)
+        if (const Probe& probe = m_probes[task.slot]; probe.noise >= 0 && probe.level > 0) {
+            sum += double(probe.level);
+            ++count;
+        }
+    return count > 0 ? float(sum / count) : 0.0f;
+}
+
+// Grows with the expected square of the error of the probe's light, beside the light of all, and with the time that it
+// has waited.
+float UpdateSchedule::priority(const Probe& probe, bool isNew, float heardLag, float meanLevel) const noexcept {
     if (isNew) return kNew;
     if (!probe.events.over()) return kAnnounced;
     const float waited = float(1 + (m_clock - probe.since));
@@ -120,9 +135,12 @@ float UpdateSchedule::priority(const Probe& probe, bool isNew, float heardLag) c
     const float lag = std::max(probe.lag, heardLag);
     const bool young = probe.updates < kYoungUpdates;
     const bool still = lag <= std::max(probe.noise, kLeastLag);
-    if (!young && still && (probe.noise <= kConvergedNoise || probe.confidence >= kConvergedConfidence)) return kPaused;
+    const float brightness = meanLevel > 0 ? std::max(probe.level / meanLevel, kDarkest) : 1.0f;
+    if (!young && still && (brightness * probe.noise <= kConvergedNoise || probe.confidence >= kConvergedConfidence))
+        return kPaused;
     float square = lag * lag + probe.noise * probe.noise;
     if (young) square = std::max(square, kYoungError * kYoungError / float(probe.updates));
+    square *= brightness * brightness;
     return waited * (square <= kMostSquare ? square : kMostSquare);  // and of what is not a number
 }
 
@@ -133,12 +151,13 @@ std::vector<ProbeTask> UpdateSchedule::choose(std::vector<ProbeTask> candidates,
     if (candidates.size() <= reserve) return candidates;
     const ProbeImportance importance(m_budget.view, settings);
     const std::vector<float> heard = heardLags(candidates, volumes);
+    const float level = meanLevel(candidates);
     std::vector<Rank> ranks(candidates.size());
     for (std::size_t i = 0; i < ranks.size(); ++i) {
         const ProbeTask& task = candidates[i];
         const Probe& probe = m_probes[task.slot];
         const bool isNew = probe.updates == 0 || isFresh(states.placements()[task.slot]);
-        const float first = priority(probe, isNew, heard[task.slot]);
+        const float first = priority(probe, isNew, heard[task.slot], level);
         ranks[i] = {std::uint32_t(i), m_clock - probe.since, kernels::hashUint(task.slot),
                     first > 0 ? first * importance.at(volumes[task.volume], task.origin) : first};
     }
@@ -162,6 +181,10 @@ std::vector<ProbeTask> UpdateSchedule::choose(std::vector<ProbeTask> candidates,
     return candidates;
 }
 
+void UpdateSchedule::tell(Probe& probe, const kernels::ProbeProgress& told) noexcept {
+    probe.lag = told.lag, probe.noise = told.noise, probe.confidence = told.confidence, probe.level = told.level;
+}
+
 void UpdateSchedule::updated(std::span<const ProbeTask> tasks,
                              std::span<const kernels::ProbeProgress> progress) noexcept {
     ++m_clock;
@@ -172,18 +195,13 @@ void UpdateSchedule::updated(std::span<const ProbeTask> tasks,
         probe.events.advance();
         probe.noise = -1;
         if (progress.empty()) continue;
-        const kernels::ProbeProgress& told = progress[task.slot];
-        probe.lag = told.lag, probe.noise = told.noise, probe.confidence = told.confidence;
+        tell(probe, progress[task.slot]);
     }
 }
 
 void UpdateSchedule::hear(std::span<const kernels::ProbeProgress> progress) noexcept {
     for (std::size_t slot = 0; slot < progress.size(); ++slot)
-        if (m_probes[slot].updates > 0) {
-            Probe& probe = m_probes[slot];
-            probe.lag = progress[slot].lag, probe.noise = progress[slot].noise;
-            probe.confidence = progress[slot].confidence;
-        }
+        if (m_probes[slot].updates > 0) tell(m_probes[slot], progress[slot]);
 }
 
 void UpdateSchedule::enter(const kernels::Volume& volume, glm::ivec3 cells) noexcept {

@@ -54,16 +54,18 @@ public:
 
 private:
     struct Probe {
-        std::uint32_t since = 0;                    // m_clock of its last update
-        float lag = 0, noise = -1, confidence = 0;  // noise below 0: not known
-        std::uint8_t updates = 0;                   // counted up to a few
+        std::uint32_t since = 0;                               // m_clock of its last update
+        float lag = 0, noise = -1, confidence = 0, level = 0;  // kernels::ProbeProgress; noise below 0: not known
+        std::uint8_t updates = 0;                              // counted up to a few
         EventUpdates events{};
     };
     struct Rank;
 
     static bool seesChange(const Probe& probe) noexcept;
     std::vector<float> heardLags(std::span<const ProbeTask> candidates, std::span<const kernels::Volume> volumes) const;
-    float priority(const Probe& probe, bool isNew, float heardLag) const noexcept;
+    float meanLevel(std::span<const ProbeTask> candidates) const noexcept;
+    float priority(const Probe& probe, bool isNew, float heardLag, float meanLevel) const noexcept;
+    static void tell(Probe& probe, const kernels::ProbeProgress& told) noexcept;
 
     UpdateBudget m_budget;
     std::size_t m_raysPerProbe;

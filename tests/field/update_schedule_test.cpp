@@ -19,7 +19,7 @@ using kernels::ProbeProgress;
 using test::FieldSetup;
 
 constexpr int kEach = 20 + 12 + 4;  // rays of one probe
-constexpr ProbeProgress kConverged{0.0f, 0.005f, 1.0f};
+constexpr ProbeProgress kConverged{0.0f, 0.005f, 1.0f, 2.0f};
 
 FieldSetup setupOf(glm::ivec3 counts, FieldRules rules = FieldRules::measured) {
     FieldSetup setup;
@@ -126,8 +126,8 @@ TEST(UpdateSchedule, noProbeStarves) {
             ASSERT_TRUE(plan.control.setBudget(probes(size)));
             // Others always see more change than one probe in three, or what they see is not a number.
             for (int slot = 0; slot < count; ++slot)
-                plan.progress[std::size_t(slot)] = slot % 3 ? ProbeProgress{1e6f, 1.0f, 0.0f} : kConverged;
-            plan.progress[std::size_t(greedy)] = {std::numeric_limits<float>::quiet_NaN(), 1.0f, 0.0f};
+                plan.progress[std::size_t(slot)] = slot % 3 ? ProbeProgress{1e6f, 1.0f, 0.0f, 2.0f} : kConverged;
+            plan.progress[std::size_t(greedy)] = {std::numeric_limits<float>::quiet_NaN(), 1.0f, 0.0f, 2.0f};
             if (dice(random) == 0)
                 plan.control.notify(FieldEvent::largeLightChange, {glm::vec3(-1), glm::vec3(float(dice(random)))});
             if (dice(random) == 0) {
@@ -184,16 +184,18 @@ TEST(UpdateSchedule, prioritiesHaveTheirOrder) {
     Plan plan(setupOf({12, 2, 2}));
     plan.settle(kConverged);
     // By column along x, so far apart that no neighbour hears of it.
-    plan.progress[0] = {0.0f, 0.05f, 0.3f};
-    plan.progress[3] = {0.2f, 0.05f, 0.3f};
-    plan.progress[6] = {0.9f, 0.05f, 0.3f};
+    plan.progress[0] = {0.0f, 0.05f, 0.3f, 2.0f};
+    plan.progress[3] = {0.2f, 0.05f, 0.3f, 2.0f};
+    plan.progress[6] = {0.9f, 0.05f, 0.3f, 2.0f};
+    // They alone are updated once more: none of them has waited long.
+    ASSERT_TRUE(plan.control.setTasks(std::vector<std::uint32_t>{0, 3, 6, 9}));
     plan.update();
-    plan.control.notify(FieldEvent::smallLightChange, {});  // without a budget: not by probe
+    ASSERT_TRUE(plan.control.setTasks({}));
+    plan.control.notify(FieldEvent::smallLightChange);  // without a budget: not by probe
     ASSERT_TRUE(plan.control.setBudget(probes(4 * 4)));
     const glm::vec3 at = probePosition(plan.control.desc().volumes[0], 9);
     plan.control.notify(FieldEvent::smallLightChange, {at, at});
     const auto wantedWith = [&](int count) {
-        // All are equally old: the reserve is that of a plan in which no one wants anything.
         plan.control.setBudget(probes(count)).value();
         return plan.tasks();
     };
@@ -219,7 +221,7 @@ TEST(UpdateSchedule, prioritiesHaveTheirOrder) {
 
 TEST(UpdateSchedule, nearAndVisibleProbesComeFirst) {
     Plan plan(setupOf({16, 2, 2}));
-    plan.settle({0.0f, 0.05f, 0.3f});
+    plan.settle({0.0f, 0.05f, 0.3f, 2.0f});
     FieldSettings settings = plan.control.settings();
     settings.camera = glm::vec3(15, 0, 0);
     ASSERT_TRUE(plan.control.setBudget(probes(8)));
@@ -246,7 +248,7 @@ TEST(UpdateSchedule, convergedProbesPauseAndWake) {
     // One of them sees a change: it and its neighbours are updated.
     const int seer = *plan.tasks().begin();
     const std::set<int> looked = plan.tasks();
-    plan.progress[std::size_t(seer)] = {0.5f, 0.005f, 1.0f};
+    plan.progress[std::size_t(seer)] = {0.5f, 0.005f, 1.0f, 2.0f};
     plan.update();
     const auto& volume = plan.control.impl().volumes[0];
     const glm::ivec3 at = kernels::probeCell(volume, seer);
@@ -256,7 +258,7 @@ TEST(UpdateSchedule, convergedProbesPauseAndWake) {
     for (int slot = 0; slot < 216; ++slot) {
         const glm::ivec3 apart = glm::abs(kernels::probeCell(volume, slot) - at);
         const bool neighbour = std::max({apart.x, apart.y, apart.z}) == 1;
-        if (neighbour && !looked.count(slot)) EXPECT_TRUE(woken.count(slot)) << slot;
+        EXPECT_TRUE(!neighbour || looked.count(slot) || woken.count(slot)) << slot;
         beyond += woken.count(slot) && !neighbour && slot != seer;
     }
     EXPECT_LE(beyond, 16) << "the others are the reserve";
@@ -268,15 +270,30 @@ TEST(UpdateSchedule, convergedProbesPauseAndWake) {
 
 TEST(UpdateSchedule, noiseKeepsProbesAwakeUntilTheirWindowIsLongest) {
     Plan plan(setupOf({4, 4, 4}));
-    plan.settle({0.0f, 0.05f, 0.5f});
+    plan.settle({0.0f, 0.05f, 0.5f, 2.0f});
     ASSERT_TRUE(plan.control.setBudget(probes(32)));
     EXPECT_EQ(plan.tasks().size(), 32u);
-    plan.settle({0.0f, 0.05f, 1.0f});
+    plan.settle({0.0f, 0.05f, 1.0f, 2.0f});
     ASSERT_TRUE(plan.control.setBudget(probes(32)));
     EXPECT_EQ(plan.tasks().size(), 8u) << "longer averages there are not";
-    plan.settle({0.002f, 0.0f, 0.1f});
+    plan.settle({0.002f, 0.0f, 0.1f, 2.0f});
     ASSERT_TRUE(plan.control.setBudget(probes(32)));
     EXPECT_EQ(plan.tasks().size(), 8u) << "rounding of what is stored is no change";
+}
+
+// What counts is light: the same share of it is less in the dark, and small noise there is none.
+TEST(UpdateSchedule, brightProbesComeBeforeDarkOnes) {
+    Plan plan(setupOf({4, 4, 4}));
+    plan.settle(kConverged);
+    for (std::size_t slot = 0; slot < 64; ++slot) plan.progress[slot] = {0.0f, 0.05f, 0.3f, slot < 32 ? 0.2f : 20.0f};
+    plan.update();
+    ASSERT_TRUE(plan.control.setBudget(probes(16)));
+    const std::set<int> tasks = plan.tasks();
+    EXPECT_GE(std::distance(tasks.lower_bound(32), tasks.end()), 12) << "all but the reserve";
+    ASSERT_TRUE(plan.control.setBudget(probes(64)));
+    const std::set<int> more = plan.tasks();
+    EXPECT_EQ(std::distance(more.lower_bound(32), more.end()), 32);
+    EXPECT_LE(more.size(), 32u + 16u) << "dark ones pause but for their turn";
 }
 
 TEST(UpdateSchedule, ofWhatIsNotKnownNothingPauses) {
@@ -302,8 +319,8 @@ TEST(UpdateSchedule, eventsLastForEachProbesUpdates) {
         EXPECT_TRUE(coming.events.empty());
         for (const ProbeTask& task : coming.tasks) {
             const kernels::EventLimit limit = coming.limitOf(task);
-            if (limit.irradianceKept < 1) EXPECT_FLOAT_EQ(limit.irradianceKept, 0.97f * 0.85f);
-            if (limit.visibilityKept < 1) EXPECT_FLOAT_EQ(limit.visibilityKept, 0.97f * 0.5f);
+            EXPECT_NEAR(limit.irradianceKept, limit.irradianceKept < 1 ? 0.97f * 0.85f : 1.0f, 1e-6f);
+            EXPECT_NEAR(limit.visibilityKept, limit.visibilityKept < 1 ? 0.97f * 0.5f : 1.0f, 1e-6f);
             light[task.slot] += limit.irradianceKept < 1;
             distances[task.slot] += limit.visibilityKept < 1;
         }
@@ -354,7 +371,7 @@ TEST(UpdateSchedule, millisecondsFollowWhatUpdatesTook) {
     ASSERT_TRUE(plan.control.setBudget(budget));
     EXPECT_EQ(plan.tasks().size(), 64u) << "before it knows";
     for (int frame = 0; frame < 30; ++frame) {
-        plan.progress.assign(1000, {1.0f, 0.1f, 0.1f});
+        plan.progress.assign(1000, {1.0f, 0.1f, 0.1f, 2.0f});
         plan.control.reportTime(1.0 + 0.05 * double(plan.tasks().size()), int(plan.tasks().size()));
         plan.update();
     }

@@ -115,9 +115,12 @@ TEST(TemporalFilter, progressIsWhatIsLeftOfNoiseInTheAverage) {
     EXPECT_EQ(open.lag, 0.2f);
     EXPECT_NEAR(open.noise, 0.3f / std::sqrt(99.0f), 1e-6f);
     EXPECT_FLOAT_EQ(open.confidence, 0.25f);
+    EXPECT_FLOAT_EQ(open.level, 1.0f);
+    EXPECT_NEAR(probeProgress(0, settled(3, 1, 50), 0).level, 4.0f, 1e-5f);
     const ProbeProgress inside = probeProgress(0.2f, f, 0.9f);
     EXPECT_EQ(inside.lag, 0.0f) << "in a wall it does not matter";
     EXPECT_EQ(inside.noise, 0.0f);
+    EXPECT_EQ(inside.level, 0.0f);
     EXPECT_EQ(noProgress().confidence, 0.0f);
     f.window = 0;
     EXPECT_TRUE(std::isfinite(probeProgress(0, f, 0).noise));

@@ -231,6 +231,7 @@ struct ProbeProgress {
     float lag;         // that it saw itself, before the update
     float noise;       // standard deviation left in its average, after the update; 0 as long as noise is unknown
     float confidence;  // its window over the longest there is, 0..1
+    float level;       // of its light, W sr^-1 m^-2
 };
 
 // Of a probe that no update has.
@@ -239,6 +240,7 @@ KERNEL_FN ProbeProgress noProgress() {
     progress.lag = 0.0f;
     progress.noise = 0.0f;
     progress.confidence = 0.0f;
+    progress.level = 0.0f;
     return progress;
 }
 
@@ -248,6 +250,8 @@ KERNEL_FN ProbeProgress probeProgress(float lagSeen, ProbeFilter state, float ba
     progress.lag = heard * lagSeen;
     progress.noise = heard * state.noise / sqrt(max(2.0f * state.window - 1.0f, 1.0f));
     progress.confidence = state.window / kLongestWindow;
+    for (int i = 0; i < kSightLobes; ++i) progress.level += state.direct[i] / float(kSightLobes);
+    progress.level = heard * (progress.level + max(state.bounced, 0.0f));
     return progress;
 }
 

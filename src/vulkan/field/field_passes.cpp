@@ -196,7 +196,7 @@ void FieldPasses::makeBudgetBuffers(const UpdateFrame& frame) {
     m_progress = Buffer(m_device.impl(), "progress of probes", m_layout.probes * sizeof(kernels::ProbeProgress),
                         kAddressed, MemoryUse::readback);
     const auto progress = m_progress.mapped<kernels::ProbeProgress>();
-    std::fill(progress.begin(), progress.end(), kernels::ProbeProgress{0, -1, 0});  // not known
+    std::fill(progress.begin(), progress.end(), kernels::ProbeProgress{0, -1, 0, 0});  // not known
 }
 
 void FieldPasses::recordClear(const Recorder& recorder, const FieldSettings& settings) {

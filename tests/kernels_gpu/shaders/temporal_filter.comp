@@ -65,6 +65,7 @@ void evaluate(INOUT(Lane) lane) {
     give(lane, progress.lag, 1e-6f);
     give(lane, progress.noise, 1e-5f);
     give(lane, progress.confidence, 1e-6f);
+    give(lane, progress.level, 2e-5f);
     const float share = takeUnit(lane);
     give(lane, lagBeyondNoise(share, 0.0f), 1e-5f);
     give(lane, bearableWindow(state.window, noise, 0.1f + share, kLongestWindow), 1e-5f);
