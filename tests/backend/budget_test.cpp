@@ -98,7 +98,7 @@ TEST_P(BackendBudget, eventsReachTheProbesOfABudgetAsOnTheCpu) {
         for (std::uint32_t i = 5; i < 7; ++i) update(*each, i, 1.0f);
     }
     expectSameAtlases(field, reference);
-    EXPECT_GT(compareAtlases(deaf, reference).worstIrradiance, 5);
+    EXPECT_GT(compareAtlases(deaf, reference).worstIrradiance, 2) << "more than backends may differ";
 }
 
 }  // namespace
