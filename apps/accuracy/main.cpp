@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "backend.h"
+#include "budget.h"
 #include "console/parse.h"
 #include "console/terminal.h"
 #include "events.h"
@@ -207,6 +208,18 @@ Result<std::string> outside(const Context& context, const Options& options) {
     return outsideTable(rows);
 }
 
+/// Updates with a budget, beside others.
+Result<std::string> budgets(const Context& context, const Options& options) {
+    std::vector<BudgetRow> rows;
+    for (const char* name : {"cornell", "house"}) {
+        if (!options.scene.empty() && options.scene != name) continue;
+        const auto measured = measureBudget(context, name);
+        if (!measured) return measured.error();
+        rows.insert(rows.end(), measured->begin(), measured->end());
+    }
+    return budgetTable(rows);
+}
+
 Result<void> measure(const Options& options) {
     const auto context = tool::makeContext(options.threads);
     if (!context) return context.error();
@@ -241,6 +254,7 @@ Result<void> measure(const Options& options) {
     for (const auto& [name, table] : {std::pair<const char*, Table>("surfaces", surfaces),
                                       {"placement", placement},
                                       {"motion", motion},
+                                      {"budget", budgets},
                                       {"flight", flights},
                                       {"outside", outside}}) {
         if (!wanted(name)) continue;
@@ -264,12 +278,13 @@ int run(int argc, char** argv) {
     if (const char* folder = std::getenv("PROBEGI_SCENES"); folder && *folder) options.scenesFolder = folder;
     app.add_option("-o,--output", options.page, "page whose measured part is replaced (default: print)")
         ->type_name("FILE");
-    app.add_option(
-           "--only", options.only,
-           "print the tables of one scene, the leak, its sweep, the surfaces, placement, motion, events, a flight "
-           "or what is outside of volumes, and write nothing")
-        ->type_name("cornell|two-rooms|dark-room|sponza|leak|sweep|surfaces|placement|motion|events|flight|outside");
-    app.add_option("--scene", options.scene, "of placement: this scene only");
+    app.add_option("--only", options.only,
+                   "print the tables of one scene, the leak, its sweep, the surfaces, placement, motion, budgets, "
+                   "events, a flight "
+                   "or what is outside of volumes, and write nothing")
+        ->type_name(
+            "cornell|two-rooms|dark-room|sponza|leak|sweep|surfaces|placement|motion|budget|events|flight|outside");
+    app.add_option("--scene", options.scene, "of placement and budget: this scene only");
     app.add_flag("--leaky", options.leaky, "placement: without a visibility test");
     app.add_option("--scenes", options.scenesFolder, "folder of the real scenes (default: PROBEGI_SCENES)")
         ->capture_default_str();

@@ -39,7 +39,8 @@ glm::vec3 coverageAt(const Field& field, glm::vec3 point) {
     return glm::mix(glm::vec3(0.85f, 0.1f, 0.05f), glm::vec3(0.2f, 0.75f, 0.3f), field.control().coverage(point));
 }
 
-glm::vec3 stateColour(const ProbeState& probe) {
+glm::vec3 stateColour(const ShownProbe& shown) {
+    const ProbeState& probe = shown.state;
     switch (probe.activity()) {
         case ProbeActivity::uninitialized:
             return {0.9f, 0.2f, 0.9f};
@@ -58,10 +59,32 @@ glm::vec3 stateColour(const ProbeState& probe) {
     return {};
 }
 
-glm::vec3 offsetColour(const ProbeState& probe) {
-    const glm::vec3 share = glm::abs(probe.offset());
+glm::vec3 offsetColour(const ShownProbe& probe) {
+    const glm::vec3 share = glm::abs(probe.state.offset());
     const float most = std::max({share.x, share.y, share.z}) / 0.45f;
     return glm::mix(glm::vec3(0.85f), glm::vec3(0.95f, 0.35f, 0.05f), std::sqrt(std::min(most, 1.0f)));
+}
+
+// Whether the probe is updated at all.
+bool isActive(const ProbeState& probe) {
+    return probe.activity() != ProbeActivity::off && probe.activity() != ProbeActivity::sleeping;
+}
+
+// From red by way of yellow to green.
+glm::vec3 trafficColour(float share) {
+    constexpr glm::vec3 kRed(0.9f, 0.15f, 0.1f), kYellow(0.95f, 0.8f, 0.15f), kGreen(0.15f, 0.75f, 0.3f);
+    return share < 0.5f ? glm::mix(kRed, kYellow, 2 * share) : glm::mix(kYellow, kGreen, 2 * share - 1);
+}
+
+glm::vec3 ageColour(const ShownProbe& probe) {
+    constexpr float kOld = 64;  // updates
+    if (!isActive(probe.state)) return glm::vec3(kGrey);
+    return trafficColour(1 - std::min(1.0f, std::log2(1.0f + float(probe.age)) / std::log2(1.0f + kOld)));
+}
+
+glm::vec3 confidenceColour(const ShownProbe& probe) {
+    return isActive(probe.state) ? trafficColour(std::sqrt(std::min(1.0f, probe.state.confidence())))
+                                 : glm::vec3(kGrey);
 }
 
 float shadeOf(const Surface& surface, const Ray& ray) {
@@ -78,7 +101,8 @@ Result<std::vector<Ball>> probeBalls(const DebugView& view, const Field& field) 
         const float radius = kBallRadius * std::min({volume.spacing.x, volume.spacing.y, volume.spacing.z});
         for (const int end = slot + probeCount(volume); slot < end; ++slot) {
             const ProbeState& probe = stored->state(slot);
-            balls.push_back({field.control().probePosition(slot), radius, view.ball(probe),
+            balls.push_back({field.control().probePosition(slot), radius,
+                             view.ball({probe, field.control().updateAge(slot)}),
                              probe.activity() == ProbeActivity::off});
         }
     }
@@ -113,7 +137,16 @@ std::span<const DebugView> debugViews() {
          "asleep, red off; see --probe-states",
          true, nullptr, stateColour},
         {"offsets", "the probes where they stand, the redder the farther from the grid; see --relocation", true,
-         nullptr, offsetColour}};
+         nullptr, offsetColour},
+        {"age",
+         "the probes, green those of the last update, yellow those of 7 updates ago, red those of 64 and more; see "
+         "--budget",
+         true, nullptr, ageColour},
+        {"confidence",
+         "the probes, green those that average over the longest window, yellow over a quarter of it, red those that "
+         "see "
+         "light change or are new",
+         true, nullptr, confidenceColour}};
     return kViews;
 }
 

@@ -11,6 +11,12 @@
 
 namespace probegi::tool {
 
+/// What a view may show of a probe.
+struct ShownProbe {
+    const ProbeState& state;
+    int age = 0;  ///< FieldControl::updateAge
+};
+
 /// A picture of what a field does at the surfaces that a camera sees, or of its probes as balls: --debug NAME. A new
 /// one is a row of debugViews(). Colours are display values, 0..1.
 struct DebugView {
@@ -18,7 +24,7 @@ struct DebugView {
     const char* help;
     bool needsLight;                                     ///< the probes must have been updated
     glm::vec3 (*colour)(const Field&, glm::vec3 point);  ///< of a surface; null: grey
-    glm::vec3 (*ball)(const ProbeState&);                ///< of a probe; null: probes are not shown
+    glm::vec3 (*ball)(const ShownProbe&);                ///< of a probe; null: probes are not shown
 };
 
 std::span<const DebugView> debugViews();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "console/parse.h"
 #include "console/terminal.h"
@@ -30,9 +31,11 @@ Result<FieldRun> updateField(Field& field, const Tracer& tracer, const Lighting&
     for (int frame = 0; frame < frames; ++frame) {
         if (bar) bar->done(frame);
         if (options.progress) options.progress(double(frame) / frames);
+        const std::size_t probes = field.control().tasks().size();
         const auto times = field.update(tracer, lighting);
         if (!times) return times.error();
         run.updates.push_back(*times);
+        run.updated.push_back(probes);
     }
     return run;
 }
@@ -71,6 +74,10 @@ Result<FieldRun> runField(Field& field, const Tracer& tracer, const Lighting& li
                         "a larger --tolerance",
                         100 * toleranceOf(options), done->updates, remainingText(*done)));
     return run;
+}
+
+double mean(const std::vector<std::size_t>& counts) {
+    return counts.empty() ? 0.0 : std::accumulate(counts.begin(), counts.end(), 0.0) / double(counts.size());
 }
 
 std::string describeRun(const FieldRun& run, const FieldRunOptions& options) {

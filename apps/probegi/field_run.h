@@ -29,11 +29,15 @@ void addFieldRunOptions(CLI::App& command, FieldRunOptions& options);
 /// Cost and result of filling a field.
 struct FieldRun {
     std::vector<UpdateTimes> updates;
+    std::vector<std::size_t> updated;           ///< with --frames: probes of each update
     std::optional<ConvergeResult> convergence;  ///< empty with --frames
 };
 
 /// Fills the field. Warns on the console if it has not converged. Errors: those of the updates.
 Result<FieldRun> runField(Field& field, const Tracer& tracer, const Lighting& lighting, const FieldRunOptions& options);
+
+/// 0 if there are no values.
+double mean(const std::vector<std::size_t>& counts);
 
 /// "128 updates; not converged to 1 %: the light of the worst region may still be 3.1 % off".
 std::string describeRun(const FieldRun& run, const FieldRunOptions& options);

@@ -34,6 +34,7 @@ Example: probegi render sponza.glb -o seams.png --camera nave --sky 0.3,0.4,0.6 
 Example: probegi render builtin:house -o truth.png --method reference --time 30
 Example: probegi render builtin:door -o door%03d.png --animate 0:4:0.1 --camera second
 Example: probegi render builtin:moving -o moving.mp4 --animate 0:4:0.04 --camera tracking
+Example: probegi render builtin:moving -o moving.mp4 --animate 0:4:0.04 --camera tracking --budget 40000
 
 --animate fills the probes by 100 real-time updates (--frames) before the first picture; all pictures get one exposure,
 chosen from five of them. With --method reference, --spp and --time are for each picture.)";
@@ -48,6 +49,7 @@ Result<std::optional<Field>> makeField(const Backend& backend, const Tracer& tra
     auto run = runField(**field, tracer, setup.lighting, options.run);
     if (!run) return run.error();
     stats.run = std::move(*run);
+    if (auto unlimited = (*field)->control().setBudget({}); !unlimited) return unlimited.error();
     stats.active = int((*field)->control().tasks().size());
     return field;
 }
@@ -106,6 +108,8 @@ void checkOptions(const CLI::App& command, const RenderOptions& options) {
     checkBackendOptions(command, options.backend);
     if (!options.debug.empty() && (options.method == Method::none || options.method == Method::reference))
         throw CLI::ValidationError("--debug", "--method none and reference have no probes to show");
+    if (!options.budget.empty() && (!hasProbes(options) || (options.animate.empty() && !options.run.frames)))
+        throw CLI::ValidationError("--budget", "it limits the real-time updates of probes: give --frames or --animate");
     if (options.method == Method::reference && options.backend.kind == BackendKind::vulkan)
         throw CLI::ValidationError("--backend", "--method reference is path traced on the CPU only");
 }
@@ -251,6 +255,14 @@ void addMethodOptions(CLI::App& command, RenderOptions& options) {
         ->type_name("on|off")
         ->transform(oneOf(kOnOff));
     addFieldRunOptions(command, options.run);
+    command
+        .add_option(
+            "--budget", options.budget,
+            "limit each real-time update of --frames and --animate to so many rays, or milliseconds: the probes "
+            "that need it most come first, by the changes they see, their noise, and the camera, and all in turn "
+            "(default: all probes in every update)")
+        ->type_name("RAYS|MSms")
+        ->check(parsedBy(parseBudget));
     command.add_option("--spp", options.samplesPerPixel, "reference: samples per pixel (default 64 without --time)")
         ->type_name("N")
         ->check(inRange(1, 1e6));

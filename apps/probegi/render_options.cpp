@@ -32,7 +32,17 @@ Result<std::optional<Field>> makeEmptyField(const Backend& backend, const Loaded
     desc.probeStates = options.probeStates;
     auto field = backend.makeField(desc, fieldSettings(setup, options.method, options.rules));
     if (!field) return field.error();
+    if (auto set = setBudget(*field, setup, options); !set) return set.error();
     return std::move(*field);
+}
+
+Result<void> setBudget(Field& field, const LoadedSetup& setup, const RenderOptions& options) {
+    if (options.budget.empty()) return {};
+    auto budget = parseBudget(options.budget);
+    if (!budget) return budget.error();
+    const PictureDesc picture = pictureDesc(options, setup);
+    budget->view = {setup.camera, float(picture.width) / float(picture.height)};
+    return field.control().setBudget(*budget);
 }
 
 Result<ReferencePicture> renderReference(const Context& context, const Tracer& tracer, const LoadedSetup& setup,

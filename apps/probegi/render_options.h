@@ -44,6 +44,7 @@ struct RenderOptions {
     std::string animate;  ///< empty: one picture
     std::optional<int> updatesPerFrame;
     bool events = true;  ///< --events
+    std::string budget;  ///< --budget; empty: none
 };
 
 /// FieldSettings::visibilityExponent of --rules paper.
@@ -60,6 +61,10 @@ PictureDesc pictureDesc(const RenderOptions& options, const LoadedSetup& setup);
 /// The field that the options ask for, still empty; none for methods without.
 Result<std::optional<Field>> makeEmptyField(const Backend& backend, const LoadedSetup& setup,
                                             const RenderOptions& options);
+
+/// Gives the field the budget that the options ask for, with the setup's camera as its view. Errors: those of
+/// FieldControl::setBudget.
+Result<void> setBudget(Field& field, const LoadedSetup& setup, const RenderOptions& options);
 
 /// A path-traced picture of the setup as it is; `guide`: null for none.
 Result<ReferencePicture> renderReference(const Context& context, const Tracer& tracer, const LoadedSetup& setup,

@@ -36,6 +36,7 @@ std::string statsJson(const RenderStats& stats) {
         {"activeProbes", stats.active},
         {"raysPerProbe", stats.raysPerProbe},
         {"frames", stats.run.updates.size()},
+        {"updatedProbes", mean(stats.run.updated)},
         {"converged", converged},
         {"remaining", remaining},
         {"updateMs", {{"trace", ms.trace}, {"shade", ms.shade}, {"blend", ms.blend}, {"total", ms.total}}},

@@ -10,13 +10,14 @@ namespace probegi::tool {
 /// The contents of --stats. A method without a field has no probes and no updates.
 struct RenderStats {
     int probes = 0;
-    int active = 0;  ///< probes that an update has among its tasks
+    int active = 0;  ///< probes that an update without a budget has among its tasks
     int raysPerProbe = 0;
     FieldRun run;
     double pictureMs = 0;
 };
 
-/// JSON with the keys probes, activeProbes, raysPerProbe, frames, converged (null with --frames and without a field),
+/// JSON with the keys probes, activeProbes, raysPerProbe, frames, updatedProbes (mean per update of --frames, else 0),
+/// converged (null with --frames and without a field),
 /// remaining (the estimate behind it, null if there is none), updateMs {trace, shade, blend, total} (medians per
 /// update, 0 without updates), pictureMs, peakMemoryBytes.
 std::string statsJson(const RenderStats& stats);

@@ -11,6 +11,7 @@
 #include "probegi/result.h"
 #include "probegi/scene.h"
 #include "probegi/shared/field_data.h"
+#include "probegi/update_budget.h"
 #include "probegi/volume.h"
 
 namespace probegi {
@@ -156,20 +157,34 @@ public:
     /// counted here.) Errors: outOfMemory.
     Result<std::vector<float>> volumeShares(glm::vec3 point) const;
 
-    /// Announces a change to the scene (section 4.3). Durations count updates, whichever probes these update.
+    /// Announces a change to the scene (section 4.3). Durations count updates, whichever probes these update; with a
+    /// budget each probe's own. The coming update's tasks change then.
     void notify(FieldEvent event) noexcept;
     /// The same for the probes inside a box, metres; an update treats all others as if nothing had been announced. Up
     /// to eight boxes act at a time; further ones are joined with those that grow least by it. A box that is inside
     /// out holds no probe; one with a NaN counts for all probes. findEdits() finds boxes.
     void notify(FieldEvent event, const Bounds& region) noexcept;
 
-    /// The probes of the coming updates, in the order of their ray data: those that are active. With relocation or
-    /// states they change when probes are placed, fall asleep or wake: ask before each update.
+    /// The probes of the coming update, in the order of their ray data: those that are active. With relocation or
+    /// states they change when probes are placed, fall asleep or wake, with a budget with every update, event, and
+    /// change of the settings: ask before each update.
     std::span<const ProbeTask> tasks() const noexcept;
     /// Chooses the probes of all coming updates, by slot, in any order; empty: all of them, as at first. Others keep
     /// their contents; a probe that was never updated is black, and its first update replaces all of it. converge()
     /// always updates all that are active. Errors: invalidArgument (a slot that is not there, or twice), outOfMemory.
     Result<void> setTasks(std::span<const std::uint32_t> slots);
+
+    /// Limits what the coming updates cost, which then have some of the tasks, in the same order. May be set before
+    /// each update: with another limit, or as the view moves. UpdateBudget() ends it. converge() ignores it. Errors:
+    /// invalidArgument (the message names the member and its range), outOfMemory.
+    Result<void> setBudget(const UpdateBudget& budget);
+    const UpdateBudget& budget() const noexcept;  ///< as it was set; none at first
+    /// For UpdateBudget::milliseconds where Field::update does not measure by itself: what an update of so many probes
+    /// took. It may come some updates late.
+    void reportTime(double milliseconds, int probes) noexcept;
+    /// How many updates of the field have passed without the probe of a slot: 0 after its own; of one that has had
+    /// none, all since it entered its volume. Unchecked.
+    int updateAge(int slot) const noexcept;
 
     /// Unit directions of the coming update's rays, raysPerProbe of them, shared by all probes: a spherical Fibonacci
     /// set that every frame shifts, with FieldRules::paper turns at random (section 2.3).

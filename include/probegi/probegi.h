@@ -16,4 +16,5 @@
 #include "probegi/shapes.h"
 #include "probegi/snapshot.h"
 #include "probegi/tracer.h"
+#include "probegi/update_budget.h"
 #include "probegi/volume.h"

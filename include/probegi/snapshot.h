@@ -37,6 +37,9 @@ struct ProbeState {
     std::uint32_t placement = std::uint32_t(ProbeActivity::vigilant);
 
     ProbeActivity activity() const noexcept { return ProbeActivity(placement & 7u); }
+    /// The window over which the probe averages, over the longest: 0 of a new probe, short after a change, 1 after a
+    /// few hundred updates without one.
+    PROBEGI_API float confidence() const noexcept;
     /// From the probe's place in the lattice, along the volume's axes, in shares of its spacing, -0.5..0.5.
     PROBEGI_API glm::vec3 offset() const noexcept;
 

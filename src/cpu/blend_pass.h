@@ -26,6 +26,7 @@ struct ProbeStep {
     FrameHysteresis hysteresis;  ///< what its windows keep
     float lag = 0;               ///< of its irradiance, relative
     float change = 0;  ///< out: mean square difference between new and old texels over the square of the old mean
+    float ownLag = 0;  ///< kernels::ownLag
 };
 
 /// How new values are blended with old ones.

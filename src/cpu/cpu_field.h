@@ -29,6 +29,7 @@ public:
     Result<FieldSnapshot> read(SlotRange slots) const override;
     Result<void> write(const FieldSnapshot& snapshot) override;
 
+    std::span<const kernels::ProbeProgress> progress() const noexcept override { return m_filter.progress(); }
     FieldMemory memory() const noexcept override;
     std::uint64_t fallbackQueries() const noexcept override { return m_fallbacks.load(); }
 

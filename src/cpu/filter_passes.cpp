@@ -85,11 +85,12 @@ std::span<ProbeStep> TemporalFilter::chooseWindows(const Context& context, const
             kernels::ProbeFilter filter = kernels::unpackFilter(packed);
             const kernels::LagAround around = lagAround(volumes[task.volume], m_lags, int(task.slot));
             const float lag = kernels::filterLag(around, filter.noise, filter.window, frame.fixedDirections.empty());
+            const float own = kernels::ownLag(around, filter.noise, filter.window, frame.fixedDirections.empty());
             filter.window = kernels::nextWindow(filter.window, filter.noise, lag, frame.longestWindow);
             filter.visibilityWindow =
                 kernels::nextVisibilityWindow(filter.visibilityWindow, around.distance, frame.longestVisibilityWindow);
-            m_steps[i] = {{kernels::keptBy(filter.window), kernels::keptBy(filter.visibilityWindow)}, lag, 0.0f};
-            if (!frame.events.empty()) limitWindows(frame.events.limitAt(task.origin), filter, m_steps[i].hysteresis);
+            m_steps[i] = {{kernels::keptBy(filter.window), kernels::keptBy(filter.visibilityWindow)}, lag, 0.0f, own};
+            if (frame.hasEvents()) limitWindows(frame.limitOf(task), filter, m_steps[i].hysteresis);
             packed.words[5] = kernels::packWindows(filter.window, filter.visibilityWindow);
         }
     });
@@ -97,14 +98,15 @@ std::span<ProbeStep> TemporalFilter::chooseWindows(const Context& context, const
 }
 
 std::span<ProbeStep> TemporalFilter::keepLessAtEvents(const UpdateFrame& frame, const FieldStorage& storage) {
-    if (frame.events.empty()) return {};
+    if (!frame.hasEvents()) return {};
     m_steps.resize(frame.tasks.size());
     for (std::size_t i = 0; i < frame.tasks.size(); ++i) {
         const ProbeTask& task = frame.tasks[i];
-        const kernels::EventLimit limit = frame.events.limitAt(task.origin);
+        const kernels::EventLimit limit = frame.limitOf(task);
         const bool isNew = kernels::isNew(storage.filters[task.slot]);
         m_steps[i] = {{isNew ? 0.0f : std::min(frame.hysteresis.irradiance, limit.irradianceKept),
                        isNew ? 0.0f : std::min(frame.hysteresis.visibility, limit.visibilityKept)},
+                      0.0f,
                       0.0f,
                       0.0f};
     }
@@ -113,6 +115,7 @@ std::span<ProbeStep> TemporalFilter::keepLessAtEvents(const UpdateFrame& frame, 
 
 void TemporalFilter::advance(const Context& context, const UpdateFrame& frame, std::span<const kernels::Volume> volumes,
                              FieldStorage& storage) {
+    if (frame.reportsProgress) m_progress.resize(storage.filters.size());
     parallelFor(context, m_steps.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const ProbeTask& task = frame.tasks[i];
@@ -121,6 +124,8 @@ void TemporalFilter::advance(const Context& context, const UpdateFrame& frame, s
             filter.noise =
                 kernels::nextNoise(filter.noise, step.change, step.lag, filter.window, kernels::isUnknown(filter));
             kernels::advanceFilter(filter, m_sights[i]);
+            if (frame.reportsProgress)
+                m_progress[task.slot] = kernels::probeProgress(step.ownLag, filter, storage.backfaceShare[task.slot]);
             const std::uint32_t number = std::uint32_t(kernels::probeNumber(volumes[task.volume], int(task.slot)));
             storage.filters[task.slot] = kernels::packFilter(filter, kernels::storageDither(frame.ditherSeed, number));
         }
@@ -134,7 +139,7 @@ void forgetFilters(std::span<const ProbeTask> tasks, float window, FieldStorage&
 
 std::size_t TemporalFilter::bytes() const noexcept {
     return m_sights.capacity() * sizeof(m_sights[0]) + m_lags.capacity() * sizeof(m_lags[0]) +
-           m_steps.capacity() * sizeof(m_steps[0]);
+           m_steps.capacity() * sizeof(m_steps[0]) + m_progress.capacity() * sizeof(m_progress[0]);
 }
 
 }  // namespace probegi

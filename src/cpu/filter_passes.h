@@ -21,10 +21,13 @@ public:
     /// Before a blend without windows: the steps for BlendFrame in an update with events in boxes; none in others.
     std::span<ProbeStep> keepLessAtEvents(const UpdateFrame& frame, const FieldStorage& storage);
 
-    /// After the blend: noise from the steps' changes; the fixed rays join their averages.
+    /// After the blend: noise from the steps' changes; the fixed rays join their averages. Reports progress() where the
+    /// frame asks for it.
     void advance(const Context& context, const UpdateFrame& frame, std::span<const kernels::Volume> volumes,
                  FieldStorage& storage);
 
+    /// [slot], of the tasks of updates whose frames asked for it; else empty.
+    std::span<const kernels::ProbeProgress> progress() const noexcept { return m_progress; }
     std::size_t bytes() const noexcept;
 
 private:
@@ -35,6 +38,7 @@ private:
     std::vector<kernels::ProbeSight> m_sights;  // [task]
     std::vector<kernels::ProbeLag> m_lags;      // [slot]; none of probes that are no task
     std::vector<ProbeStep> m_steps;             // [task]
+    std::vector<kernels::ProbeProgress> m_progress;
 };
 
 /// After an update that was part of an average, or by the paper's rules: the windows that such an update has.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <new>
 
 #include "core/sentence.h"
@@ -14,6 +15,10 @@
 namespace probegi {
 
 namespace {
+
+constexpr const char* kNoListMemory = "no memory for the list of probes";
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr Bounds kEverywhere{glm::vec3(-kInfinity), glm::vec3(kInfinity)};
 
 std::uint32_t seedOf(const FieldDesc& desc) {
     return kernels::hashCombine(std::uint32_t(desc.seed), std::uint32_t(desc.seed >> 32));
@@ -59,6 +64,7 @@ FieldControl::Impl::Impl(const FieldDesc& d, const FieldSettings& s)
       scrolled(d.volumes.size()),
       volumes(makeVolumes(d)),
       states(d),
+      schedule(d),
       byDensity(volumesByDensity(d)),
       tasks(tasksOf(volumes, states, {})),
       directions(std::size_t(d.raysPerProbe)) {
@@ -89,9 +95,36 @@ std::size_t FieldControl::Impl::bytes() const noexcept {
            byDensity.capacity() * sizeof(byDensity[0]) + states.bytes();
 }
 
+FieldControl::Impl::TaskList FieldControl::Impl::listed(std::span<const kernels::Volume> where, const ProbeStates& of,
+                                                        std::span<const std::uint32_t> among,
+                                                        const UpdateSchedule& by) const {
+    TaskList list{tasksOf(where, of, among), 0};
+    const std::size_t candidates = list.tasks.size();
+    if (by.limited()) list.tasks = by.choose(std::move(list.tasks), where, of, settings);
+    const bool all = among.empty() && of.allAreTasks() && list.tasks.size() == candidates;
+    list.number = all ? 0 : ++taskLists;
+    return list;
+}
+
+void FieldControl::Impl::take(TaskList list) noexcept {
+    tasks.swap(list.tasks);
+    taskList = list.number;
+}
+
 void FieldControl::Impl::listTasks() {
-    tasks = tasksOf(volumes, states, chosen);
-    taskList = chosen.empty() && states.allAreTasks() ? 0 : ++taskLists;
+    take(listed(volumes, states, chosen, schedule));
+}
+
+void FieldControl::Impl::listTasks(Placement& placed) const {
+    TaskList list = listed(placed.volumes, placed.states, chosen, placed.schedule);
+    placed.tasks = std::move(list.tasks);
+    placed.taskList = list.number;
+}
+
+void FieldControl::Impl::chooseTasks() noexcept try {
+    if (!averaging && schedule.limited()) listTasks();
+} catch (const std::bad_alloc&) {
+    // Those before are as good a choice.
 }
 
 Result<void> FieldControl::Impl::watch(std::span<const Bounds> moving, std::span<const Bounds> media) try {
@@ -99,9 +132,7 @@ Result<void> FieldControl::Impl::watch(std::span<const Bounds> moving, std::span
     ProbeStates next = states;
     next.watch(moving, media);
     if (next.wake(volumes, settings, desc.rules)) {
-        std::vector<ProbeTask> listed = tasksOf(volumes, next, chosen);
-        tasks.swap(listed);
-        taskList = chosen.empty() && next.allAreTasks() ? 0 : ++taskLists;
+        take(listed(volumes, next, chosen, schedule));
     }
     std::swap(states, next);
     return {};
@@ -122,7 +153,9 @@ UpdateFrame FieldControl::Impl::comingUpdate() const noexcept {
                        .raySeed = ditherSeedOf(desc, turns) ^ 0x85ebca6bu,
                        .bounces = frame > 0,
                        .nextRays = raySet(frame + 1)};
+    coming.limits = schedule.limits(tasks, settings);
     if (desc.rules == FieldRules::paper) return coming;
+    coming.reportsProgress = schedule.limited();
     coming.linear = coming.windows = true;
     coming.fixedDirections = fixedDirections;
     // Where nothing would tell of a change, old light must fade all the same.
@@ -147,8 +180,9 @@ UpdateFrame FieldControl::Impl::comingAverage(FrameHysteresis kept) const noexce
     UpdateFrame coming = comingUpdate();
     coming.hysteresis = kept;
     coming.events = {};
+    coming.limits = {};
     coming.linear = true;
-    coming.windows = false;
+    coming.windows = coming.reportsProgress = false;
     coming.fixedDirections = {};
     return coming;
 }
@@ -158,19 +192,33 @@ void FieldControl::Impl::setAveraging(bool isAverage) {
     turnRays();
 }
 
-void FieldControl::Impl::advance(bool turn) {
+void FieldControl::Impl::advance(bool turn, std::span<const kernels::ProbeProgress> progress) noexcept {
     events.advance();
     states.updated(tasks);
+    schedule.updated(tasks, progress);
     ++frame;
+    chooseTasks();
     if (!turn) return;
     ++turns;
     turnRays();
+}
+
+void FieldControl::Impl::notify(FieldEvent event, const Bounds& box) noexcept {
+    if (!schedule.limited()) return events.notify(event, box);
+    schedule.notify(event, isNumber(box) ? box : kEverywhere, volumes, states);
+    chooseTasks();
+}
+
+void FieldControl::Impl::notify(FieldEvent event) noexcept {
+    if (!schedule.limited()) return events.notify(event);
+    notify(event, kEverywhere);
 }
 
 void FieldControl::Impl::restart() {
     events = {};
     frame = turns = 0;
     states.restart();
+    schedule.restart();
     listTasks();
     turnRays();
 }
@@ -189,13 +237,14 @@ Result<FieldControl::Impl::Placement> FieldControl::Impl::placedAt(std::vector<g
     for (std::size_t i = 0; i < cells.size(); ++i)
         if (auto ok = validateVolumePlace(sentence("volumes[", i, "]"), scrolledVolume(desc.volumes[i], cells[i])); !ok)
             return ok.error();
-    Placement placed{std::move(cells), {}, now, {}, 0};
+    Placement placed{std::move(cells), {}, now, schedule, {}, 0};
     placed.volumes = makeVolumes(desc, placed.scrolled);
     for (std::size_t i = 0; i < placed.volumes.size(); ++i)
         placed.states.enter(placed.volumes[i], placed.scrolled[i] - scrolled[i]);
+    for (std::size_t i = 0; i < placed.volumes.size(); ++i)
+        placed.schedule.enter(placed.volumes[i], placed.scrolled[i] - scrolled[i]);
     placed.states.wake(placed.volumes, settings, desc.rules);
-    placed.tasks = tasksOf(placed.volumes, placed.states, chosen);
-    placed.taskList = taskList == 0 && placed.states.allAreTasks() ? 0 : ++taskLists;
+    listTasks(placed);
     return placed;
 }
 
@@ -224,8 +273,8 @@ Result<FieldControl::Impl::Placement> FieldControl::Impl::placementOf(const Fiel
     auto placed = placedAt(whole ? snapshot.scrolled : scrolled, states);
     if (!placed) return placed;
     placed->states.replace(snapshot.slots, placements);
-    placed->tasks = tasksOf(placed->volumes, placed->states, chosen);
-    placed->taskList = taskList == 0 && placed->states.allAreTasks() ? 0 : ++taskLists;
+    placed->schedule.replace(snapshot.slots);
+    listTasks(*placed);
     return placed;
 }
 
@@ -244,6 +293,7 @@ void FieldControl::Impl::swapPlacement(Placement& other) noexcept {
     scrolled.swap(other.scrolled);
     volumes.swap(other.volumes);
     std::swap(states, other.states);
+    std::swap(schedule, other.schedule);
     tasks.swap(other.tasks);
     std::swap(taskList, other.taskList);
 }
@@ -293,10 +343,10 @@ Result<std::vector<float>> FieldControl::volumeShares(glm::vec3 point) const try
     return fail(ErrorCode::outOfMemory, "no memory for the shares of the volumes");
 }
 void FieldControl::notify(FieldEvent event) noexcept {
-    m_impl->events.notify(event);
+    m_impl->notify(event);
 }
 void FieldControl::notify(FieldEvent event, const Bounds& region) noexcept {
-    m_impl->events.notify(event, region);
+    m_impl->notify(event, region);
 }
 std::span<const ProbeTask> FieldControl::tasks() const noexcept {
     return m_impl->tasks;
@@ -326,6 +376,7 @@ Result<void> FieldControl::setMedia(std::span<const Bounds> bounds) {
 Result<void> FieldControl::setSettings(const FieldSettings& settings) {
     if (auto ok = validateFieldSettings(settings); !ok) return ok;
     m_impl->settings = settings;
+    m_impl->chooseTasks();  // the camera may have moved
     return {};
 }
 
@@ -341,13 +392,31 @@ Result<void> FieldControl::setTasks(std::span<const std::uint32_t> slots) try {
         taken[slot] = true;
     }
     std::vector<std::uint32_t> chosen(slots.begin(), slots.end());
-    std::vector<ProbeTask> listed = tasksOf(m_impl->volumes, m_impl->states, chosen);
+    m_impl->take(m_impl->listed(m_impl->volumes, m_impl->states, chosen, m_impl->schedule));
     m_impl->chosen.swap(chosen);
-    m_impl->tasks.swap(listed);
-    m_impl->taskList = m_impl->chosen.empty() && m_impl->states.allAreTasks() ? 0 : ++m_impl->taskLists;
     return {};
 } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::outOfMemory, "no memory for the list of probes");
+    return fail(ErrorCode::outOfMemory, kNoListMemory);
+}
+
+Result<void> FieldControl::setBudget(const UpdateBudget& budget) try {
+    if (auto ok = validateBudget(m_impl->desc, budget); !ok) return ok;
+    UpdateSchedule schedule = m_impl->schedule;
+    schedule.setBudget(budget);
+    m_impl->take(m_impl->listed(m_impl->volumes, m_impl->states, m_impl->chosen, schedule));
+    std::swap(m_impl->schedule, schedule);
+    return {};
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, kNoListMemory);
+}
+const UpdateBudget& FieldControl::budget() const noexcept {
+    return m_impl->schedule.budget();
+}
+void FieldControl::reportTime(double milliseconds, int probes) noexcept {
+    m_impl->schedule.reportTime(milliseconds, std::size_t(std::max(0, probes)));
+}
+int FieldControl::updateAge(int slot) const noexcept {
+    return m_impl->schedule.age(std::size_t(slot));
 }
 
 }  // namespace probegi

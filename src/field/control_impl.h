@@ -5,6 +5,7 @@
 
 #include "field/probe_states.h"
 #include "field/update_frame.h"
+#include "field/update_schedule.h"
 #include "field/volume_access.h"
 #include "kernels/trace/ray_set.h"
 #include "probegi/control.h"
@@ -30,8 +31,15 @@ struct FieldControl::Impl {
     void setAveraging(bool averaging);
     /// The directions of update `number`, in a few numbers.
     kernels::RaySet raySet(int number) const noexcept;
-    /// Ends the frame: after the update. Without `turn`, the coming update has the same rays again.
-    void advance(bool turn = true);
+    /// Ends the frame: after the update. Without `turn`, the coming update has the same rays again. `progress`:
+    /// FieldBackend::progress(). With a budget the coming update has other tasks, or, without memory, the same.
+    void advance(bool turn = true, std::span<const kernels::ProbeProgress> progress = {}) noexcept;
+    /// With a budget, after what it goes by has changed: the coming update's tasks.
+    void chooseTasks() noexcept;
+    /// FieldControl::notify. With a budget, updates have some probes only: for how many updates a probe is to follow
+    /// faster is then counted for each.
+    void notify(FieldEvent event) noexcept;
+    void notify(FieldEvent event, const Bounds& box) noexcept;
     /// Back to frame 0, for probes that were cleared. Desc, settings and tasks stay.
     void restart();
     /// Fills in what a snapshot says of the books.
@@ -47,6 +55,7 @@ struct FieldControl::Impl {
         std::vector<glm::ivec3> scrolled;      // by volume, cells
         std::vector<kernels::Volume> volumes;  // as they stand
         ProbeStates states;
+        UpdateSchedule schedule;
         std::vector<ProbeTask> tasks;
         std::uint32_t taskList;
     };
@@ -70,6 +79,7 @@ struct FieldControl::Impl {
     std::vector<glm::ivec3> scrolled;      // by volume, cells
     std::vector<kernels::Volume> volumes;  // as they stand now
     ProbeStates states;
+    UpdateSchedule schedule;
     std::vector<std::uint32_t> chosen;  // slots that setTasks chose; empty: all
     std::vector<int> byDensity;         // of the volumes
     std::vector<ProbeTask> tasks;
@@ -85,6 +95,15 @@ private:
     void turnRays() noexcept;
     Result<void> watch(std::span<const Bounds> moving, std::span<const Bounds> media);
     Result<Placement> placedAt(std::vector<glm::ivec3> cells, const ProbeStates& now) const;
+    /// The tasks of a coming update, and the number of their list.
+    struct TaskList {
+        std::vector<ProbeTask> tasks;
+        std::uint32_t number;
+    };
+    TaskList listed(std::span<const kernels::Volume> where, const ProbeStates& of, std::span<const std::uint32_t> among,
+                    const UpdateSchedule& by) const;
+    void take(TaskList list) noexcept;
+    void listTasks(Placement& placed) const;
     friend class FieldControl;
 };
 

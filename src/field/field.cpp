@@ -34,6 +34,7 @@ public:
         std::swap(m_books.tasks, m_tasks);
         m_books.taskList = m_list;
         m_books.setAveraging(false);
+        m_books.chooseTasks();
     }
     Averaging(const Averaging&) = delete;
     Averaging& operator=(const Averaging&) = delete;
@@ -53,8 +54,10 @@ struct Field::Impl {
     FieldControl::Impl& books() noexcept { return control.impl(); }
 
     // A failed update is no frame: the next one has its rays and its dither.
-    Result<UpdateTimes> ended(Result<UpdateTimes> times) {
-        if (times) books().advance();
+    Result<UpdateTimes> ended(bool asked, Result<UpdateTimes> times) {
+        if (!times) return times;
+        control.reportTime(times->total, int(control.tasks().size()));
+        books().advance(true, asked ? backend->progress() : std::span<const kernels::ProbeProgress>());
         return times;
     }
 
@@ -171,7 +174,7 @@ Result<UpdateTimes> Field::update(std::span<const RayDatum> rayData, std::span<c
     std::optional<FoundPlaces> found;
     if (books.states.hasNew())
         found = lookAround(m_impl->context, frame, books.states.placements(), books.states.moving(), rayData);
-    auto times = m_impl->ended(m_impl->backend->update(frame, rayData, fixedRays));
+    auto times = m_impl->ended(frame.reportsProgress, m_impl->backend->update(frame, rayData, fixedRays));
     if (times && found) {
         m_impl->place(*found);
         if (auto told = m_impl->tellPlaces(); !told) return told.error();
@@ -197,7 +200,8 @@ Result<UpdateTimes> Field::update(std::span<const PackedRayDatum> rayData,
 
 Result<UpdateTimes> Field::update(const Tracer& tracer, const Lighting& lighting) try {
     if (auto ready = m_impl->prepare(tracer); !ready) return ready.error();
-    return m_impl->ended(m_impl->backend->update(m_impl->books().comingUpdate(), tracer, lighting));
+    const UpdateFrame frame = m_impl->books().comingUpdate();
+    return m_impl->ended(frame.reportsProgress, m_impl->backend->update(frame, tracer, lighting));
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, kNoRayDataMemory);
 }
@@ -259,6 +263,7 @@ Result<void> Field::followCamera(glm::vec3 camera) try {
         if ((*cells)[i] != glm::ivec3(0))
             if (auto scrolled = scroll(int(i), (*cells)[i]); !scrolled) return scrolled;
     books.settings.camera = camera;
+    books.chooseTasks();
     return {};
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, kNoScrollMemory);

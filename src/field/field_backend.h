@@ -47,6 +47,10 @@ public:
     virtual Result<FieldSnapshot> read(SlotRange slots) const = 0;
     virtual Result<void> write(const FieldSnapshot& snapshot) = 0;
 
+    /// What probes told in the last update that had them among its tasks and whose frame asked for it (UpdateFrame::
+    /// reportsProgress), by slot. Empty: nothing is known; a budget then goes by what FieldControl knows.
+    virtual std::span<const kernels::ProbeProgress> progress() const noexcept { return {}; }
+
     virtual FieldMemory memory() const noexcept = 0;
     virtual std::uint64_t fallbackQueries() const noexcept = 0;
 };

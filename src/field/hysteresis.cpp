@@ -8,18 +8,12 @@ namespace probegi {
 
 namespace {
 
-constexpr int kSmallLightFrames = 4;
-constexpr int kLargeFrames = 10;
-constexpr int kVisibilityFrames = 7;
+constexpr std::uint8_t kSmallLightFrames = 4;
+constexpr std::uint8_t kLargeFrames = 10;
+constexpr std::uint8_t kVisibilityFrames = 7;
 constexpr float kSmallLightFactor = 0.85f;
 constexpr float kLargeFactor = 0.5f;
 constexpr float kVisibilityFactor = 0.5f;
-
-bool isNumber(const Bounds& box) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (std::isnan(box.lower[axis]) || std::isnan(box.upper[axis])) return false;
-    return true;
-}
 
 bool isEmpty(const Bounds& box) {
     return box.lower.x > box.upper.x || box.lower.y > box.upper.y || box.lower.z > box.upper.z;
@@ -36,7 +30,13 @@ double volumeOf(const Bounds& box) {
 
 }  // namespace
 
-void HysteresisSchedule::FramesLeft::add(FieldEvent event) noexcept {
+bool isNumber(const Bounds& box) noexcept {
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::isnan(box.lower[axis]) || std::isnan(box.upper[axis])) return false;
+    return true;
+}
+
+void EventUpdates::add(FieldEvent event) noexcept {
     switch (event) {
         case FieldEvent::smallLightChange:
             smallLight = kSmallLightFrames;
@@ -55,23 +55,31 @@ void HysteresisSchedule::FramesLeft::add(FieldEvent event) noexcept {
     }
 }
 
-void HysteresisSchedule::FramesLeft::join(const FramesLeft& other) noexcept {
+void EventUpdates::join(const EventUpdates& other) noexcept {
     smallLight = std::max(smallLight, other.smallLight);
     large = std::max(large, other.large);
     visibility = std::max(visibility, other.visibility);
 }
 
-void HysteresisSchedule::FramesLeft::advance() noexcept {
-    for (int* left : {&smallLight, &large, &visibility}) *left = std::max(0, *left - 1);
+void EventUpdates::advance() noexcept {
+    for (std::uint8_t* left : {&smallLight, &large, &visibility})
+        if (*left > 0) --*left;
 }
 
-// Overlapping events: the stronger one counts.
-float HysteresisSchedule::FramesLeft::irradianceFactor() const noexcept {
+float EventUpdates::irradianceFactor() const noexcept {
     return std::min(smallLight > 0 ? kSmallLightFactor : 1.0f, large > 0 ? kLargeFactor : 1.0f);
 }
 
-float HysteresisSchedule::FramesLeft::visibilityFactor() const noexcept {
+float EventUpdates::visibilityFactor() const noexcept {
     return visibility > 0 ? kVisibilityFactor : 1.0f;
+}
+
+kernels::EventLimit EventUpdates::limit(const FieldSettings& settings) const noexcept {
+    const float light = irradianceFactor(), distances = visibilityFactor();
+    kernels::EventLimit limit = kernels::noEventLimit();
+    if (light < 1) limit.irradianceKept = settings.hysteresis * light;
+    if (distances < 1) limit.visibilityKept = settings.visibilityHysteresis * distances;
+    return limit;
 }
 
 void HysteresisSchedule::notify(FieldEvent event) noexcept {
@@ -109,10 +117,9 @@ EventRegions HysteresisSchedule::regions(const FieldSettings& settings, bool fir
     if (firstFrame) return regions;  // keeps nothing anyway
     for (std::size_t i = 0; i < m_count; ++i) {
         const Region& r = m_regions[i];
-        const float irradiance = r.left.irradianceFactor(), visibility = r.left.visibilityFactor();
-        regions.boxes[std::size_t(regions.count++)] = {r.box.lower, r.box.upper,
-                                                       irradiance < 1 ? settings.hysteresis * irradiance : 1,
-                                                       visibility < 1 ? settings.visibilityHysteresis * visibility : 1};
+        const kernels::EventLimit limit = r.left.limit(settings);
+        regions.boxes[std::size_t(regions.count++)] = {r.box.lower, r.box.upper, limit.irradianceKept,
+                                                       limit.visibilityKept};
     }
     return regions;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 
 #include "kernels/blend/event_region.h"
@@ -21,12 +22,30 @@ struct EventRegions {
 
     bool empty() const noexcept { return count == 0; }
     std::span<const kernels::EventRegion> all() const noexcept { return {boxes.data(), std::size_t(count)}; }
-    /// What the boxes leave a probe that stands there.
-    kernels::EventLimit limitAt(glm::vec3 position) const noexcept {
-        kernels::EventLimit limit = kernels::noEventLimit();
+    /// What the boxes leave a probe that stands there, of what others leave it.
+    kernels::EventLimit limitAt(glm::vec3 position,
+                                kernels::EventLimit limit = kernels::noEventLimit()) const noexcept {
         for (const kernels::EventRegion& region : all()) kernels::addEventRegion(limit, region, position);
         return limit;
     }
+};
+
+/// Whether none of a box's numbers is a NaN.
+bool isNumber(const Bounds& box) noexcept;
+
+/// Updates for which the reductions of announced changes still last (section 4.3).
+struct EventUpdates {
+    std::uint8_t smallLight = 0, large = 0, visibility = 0;
+
+    void add(FieldEvent event) noexcept;
+    void join(const EventUpdates& other) noexcept;
+    void advance() noexcept;
+    bool over() const noexcept { return smallLight == 0 && large == 0 && visibility == 0; }
+    /// Shares that the reductions leave of the settings' hysteresis; overlapping events: the stronger one counts.
+    float irradianceFactor() const noexcept;
+    float visibilityFactor() const noexcept;
+    /// The same as limits; 1 where nothing lasts.
+    kernels::EventLimit limit(const FieldSettings& settings) const noexcept;
 };
 
 /// Which hysteresis the coming update uses: that of the settings, lowered for a few frames after announced changes
@@ -50,23 +69,12 @@ public:
     void advance() noexcept;
 
 private:
-    /// Frames that the reductions still last.
-    struct FramesLeft {
-        int smallLight = 0, large = 0, visibility = 0;
-
-        void add(FieldEvent event) noexcept;
-        void join(const FramesLeft& other) noexcept;
-        void advance() noexcept;
-        bool over() const noexcept { return smallLight <= 0 && large <= 0 && visibility <= 0; }
-        float irradianceFactor() const noexcept;
-        float visibilityFactor() const noexcept;
-    };
     struct Region {
         Bounds box;
-        FramesLeft left;
+        EventUpdates left;
     };
 
-    FramesLeft m_everywhere;
+    EventUpdates m_everywhere;
     std::array<Region, kernels::kMostEventRegions> m_regions{};
     std::size_t m_count = 0;
 };

@@ -116,6 +116,10 @@ glm::vec3 ProbeState::offset() const noexcept {
     return kernels::probeOffset(unit, int(placement));
 }
 
+float ProbeState::confidence() const noexcept {
+    return kernels::unpackFilter(filterOf(*this)).window / kernels::kLongestWindow;
+}
+
 ProbeState probeState(float backfaceShare, const kernels::ProbeSides& sides, const kernels::PackedProbeFilter& filter) {
     ProbeState state;
     state.backfaceShare = backfaceShare;

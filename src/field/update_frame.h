@@ -20,8 +20,10 @@ struct UpdateFrame {
     std::span<const glm::vec3> directions{};   ///< unit, raysPerProbe of them
     FrameHysteresis hysteresis{};
     EventRegions events{};  ///< in which probes keep less than `hysteresis` or their windows say
-    bool linear = false;    ///< kernels::blendLinear instead of blendEncoded
-    bool windows = false;   ///< each probe at the rate of its own window, in place of `hysteresis`; linear is true then
+    std::span<const kernels::EventLimit> limits{};  ///< the same by slot; empty: none
+    bool reportsProgress = false;                   ///< FieldBackend::progress() is asked for, where there are windows
+    bool linear = false;                            ///< kernels::blendLinear instead of blendEncoded
+    bool windows = false;  ///< each probe at the rate of its own window, in place of `hysteresis`; linear is true then
     std::span<const glm::vec3> fixedDirections{};  ///< unit; of the rays that measure lag. Empty: none
     float longestWindow = 1;                       ///< updates, of irradiance
     float longestVisibilityWindow = 1;             ///< updates, of distance moments
@@ -32,6 +34,12 @@ struct UpdateFrame {
 
     /// Whether all of the field's probes are updated, in the order of their slots.
     bool whole() const noexcept { return taskList == 0; }
+    bool hasEvents() const noexcept { return !events.empty() || !limits.empty(); }
+    /// What announced changes leave a probe.
+    kernels::EventLimit limitOf(const ProbeTask& task) const noexcept {
+        const kernels::EventLimit limit = limits.empty() ? kernels::noEventLimit() : limits[task.slot];
+        return events.limitAt(task.origin, limit);
+    }
 };
 
 }  // namespace probegi

@@ -147,6 +147,43 @@ TEST(Render, DebugViewsShowProbesByWhatTheyDo) {
     EXPECT_GT(count(render(offsets), red), 0);
 }
 
+TEST(Render, ABudgetLimitsUpdatesAndDebugViewsShowIt) {
+    const auto count = [](const HdrImage& image, const auto& is) {
+        return std::count_if(image.pixels.begin(), image.pixels.end(), is);
+    };
+    const auto green = [](glm::vec3 p) { return p.y > 2 * p.x && p.y > 1.5f * p.z; };
+    const auto red = [](glm::vec3 p) { return p.x > 2 * p.y && p.x > 2 * p.z; };
+    const std::vector<std::string> grid{"--probes", "10x10x10", "--frames", "3", "--rays", "16", "--seed", "3"};
+    const auto with = [&](std::vector<std::string> options) {
+        options.insert(options.end(), grid.begin(), grid.end());
+        return options;
+    };
+    EXPECT_EQ(count(render(with({"--debug", "age"})), red), 0) << "all have just been updated";
+    EXPECT_GT(count(render(with({"--debug", "age"})), green), 10);
+    // 36 rays a probe: 200 of them an update, none yet twice.
+    const HdrImage ages = render(with({"--debug", "age", "--budget", "7200"}));
+    EXPECT_LT(count(ages, green), count(render(with({"--debug", "age"})), green));
+    EXPECT_GT(count(render(with({"--debug", "confidence"})), red), 10) << "windows are short at first";
+
+    const TemporaryFolder folder;
+    for (const char* budget : {"7200", "0.001ms", "7500"}) {
+        std::vector<std::string> words{"render",   "builtin:cornell",
+                                       "-o",       folder.file("a.png"),
+                                       "--size",   "32x18",
+                                       "--stats",  folder.file("s.json"),
+                                       "--budget", budget};
+        words.insert(words.end(), grid.begin(), grid.end());
+        const ToolRun run = runTool(words);
+        ASSERT_EQ(run.exitCode, 0) << run.err;
+        const auto stats = nlohmann::json::parse(readText(folder.file("s.json")));
+        EXPECT_EQ(stats["activeProbes"], 1000);
+        if (std::string(budget) == "0.001ms")
+            EXPECT_LE(stats["updatedProbes"].get<double>(), (64 + 1 + 1) / 3.0) << "64 before it knows what they cost";
+        else
+            EXPECT_EQ(stats["updatedProbes"], std::string(budget) == "7200" ? 200 : 208);
+    }
+}
+
 TEST(Render, UntilConverged) {
     EXPECT_GT(mean(render({"--probes", "6x6x6", "--rays", "32"}, "builtin:furnace")), 0);
 }
@@ -314,13 +351,14 @@ TEST(Render, StatsHaveExactlyTheirKeys) {
         return names;
     };
     EXPECT_THAT(keys(stats),
-                testing::UnorderedElementsAre("probes", "activeProbes", "raysPerProbe", "frames", "converged",
-                                              "remaining", "updateMs", "pictureMs", "peakMemoryBytes"));
+                testing::UnorderedElementsAre("probes", "activeProbes", "raysPerProbe", "frames", "updatedProbes",
+                                              "converged", "remaining", "updateMs", "pictureMs", "peakMemoryBytes"));
     EXPECT_THAT(keys(stats["updateMs"]), testing::UnorderedElementsAre("trace", "shade", "blend", "total"));
     EXPECT_EQ(stats["probes"], 120);
     EXPECT_EQ(stats["activeProbes"], 120);
     EXPECT_EQ(stats["raysPerProbe"], 24);
     EXPECT_EQ(stats["frames"], 3);
+    EXPECT_EQ(stats["updatedProbes"], 120);
     EXPECT_TRUE(stats["converged"].is_null()) << "real-time updates do not say";
     EXPECT_GT(stats["updateMs"]["total"], 0);
     EXPECT_GT(stats["pictureMs"], 0);

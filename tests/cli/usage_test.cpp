@@ -38,6 +38,8 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{"--unpack-limit", "0"}, std::pair{"--unpack-limit", "1.5"},
                     std::pair{"--unpack-limit", "-5"}, std::pair{"--cascades", "0"}, std::pair{"--cascades", "9"},
                     std::pair{"--outside", "far"}, std::pair{"--outside", "-1,0,0"}, std::pair{"--debug", "walls"},
+                    std::pair{"--budget", "0"}, std::pair{"--budget", "-5"}, std::pair{"--budget", "fast"},
+                    std::pair{"--budget", "0ms"}, std::pair{"--budget", "nanms"}, std::pair{"--budget", "4s"},
                     std::pair{"--backend", "cuda"}, std::pair{"--tracer", "embree"}),
     [](const auto& instance) {
         std::string name = instance.param.first + "_" + std::to_string(instance.index);
@@ -66,6 +68,9 @@ TEST(Usage, CascadesAndDebugViewsThatCannotBeAreRefused) {
     refused({"--cascades", "2", "--cascade-probes", "8x4x8"}, "counts is 4", 1);
     refused({"--debug", "volumes", "--method", "none"}, "--debug", 2);
     refused({"--debug", "volumes", "--method", "reference"}, "--debug", 2);
+    refused({"--budget", "20000"}, "--frames", 2);
+    refused({"--budget", "20000", "--frames", "2", "--method", "none"}, "--budget", 2);
+    refused({"--budget", "10", "--frames", "2"}, "does not pay for one probe", 1);
 }
 
 TEST(Usage, MissingArgumentsAreNamed) {

@@ -94,6 +94,38 @@ TEST(TemporalFilter, bouncedLagCountsWithItsLaterBounces) {
     EXPECT_NEAR(filterLag(alone(lag), 0.0f, 50.0f, false), kBounceLag * 0.1f / 4.0f, 1e-4f);
 }
 
+// What a schedule goes by is the probe's own lag: what its neighbours see shortens its window, but is not news from it.
+TEST(TemporalFilter, ownLagIsThatOfTheProbeAlone) {
+    const ProbeLag mine = probeLag(evenSight(1.1f, 0, 0.5f), settled(1, 0, 50)),
+                   theirs = probeLag(evenSight(1.9f, 0, 0.5f), settled(1, 0, 50));
+    LagAround around = noLag();
+    addLag(around, mine, theirs.level, true);
+    addLag(around, theirs, theirs.level, false);
+    EXPECT_NEAR(ownLag(around, 0.1f, 50.0f, false), 0.1f / 1.1f, 1e-4f);
+    EXPECT_NEAR(filterLag(around, 0.1f, 50.0f, false), kSpreadLag * 0.9f / 1.9f, 1e-4f);
+    EXPECT_EQ(ownLag(around, 0.1f, 50.0f, true), 0.0f) << "below the noise of its own rays";
+    const ProbeLag bounces = probeLag(evenSight(3, 0.9f, 0.5f), settled(3, 1, 50));
+    EXPECT_NEAR(ownLag(alone(bounces), 0.0f, 50.0f, false), kBounceLag * 0.1f / 4.0f, 1e-4f);
+}
+
+TEST(TemporalFilter, progressIsWhatIsLeftOfNoiseInTheAverage) {
+    ProbeFilter f = settled(1, 0, 50);
+    f.noise = 0.3f;
+    const ProbeProgress open = probeProgress(0.2f, f, 0.0f);
+    EXPECT_EQ(open.lag, 0.2f);
+    EXPECT_NEAR(open.noise, 0.3f / std::sqrt(99.0f), 1e-6f);
+    EXPECT_FLOAT_EQ(open.confidence, 0.25f);
+    EXPECT_FLOAT_EQ(open.level, 1.0f);
+    EXPECT_NEAR(probeProgress(0, settled(3, 1, 50), 0).level, 4.0f, 1e-5f);
+    const ProbeProgress inside = probeProgress(0.2f, f, 0.9f);
+    EXPECT_EQ(inside.lag, 0.0f) << "in a wall it does not matter";
+    EXPECT_EQ(inside.noise, 0.0f);
+    EXPECT_EQ(inside.level, 0.0f);
+    EXPECT_EQ(noProgress().confidence, 0.0f);
+    f.window = 0;
+    EXPECT_TRUE(std::isfinite(probeProgress(0, f, 0).noise));
+}
+
 // An average over a window of w updates keeps noise / sqrt(2 w - 1): so much of a change of bounced light is ignored.
 TEST(TemporalFilter, noiseOfBouncedLightIsNotLag) {
     LagAround around = noLag();

@@ -146,6 +146,7 @@ std::string animationJson(const Animation& animation, const FieldRun& fill, doub
                         {"poseMs", f.move.pose},
                         {"editsMs", f.move.edits},
                         {"edits", f.move.editsFound},
+                        {"updatedProbes", mean(f.move.updated)},
                         {"updateMs", f.move.update},
                         {"pictureMs", f.pictureMs},
                         {"writeMs", f.writeMs}});
@@ -155,6 +156,7 @@ std::string animationJson(const Animation& animation, const FieldRun& fill, doub
                                       {"raysPerProbe", field ? field->desc().raysPerProbe : 0},
                                       {"fillUpdates", fill.updates.size()},
                                       {"fillMs", fillMs},
+                                      {"fillUpdatedProbes", mean(fill.updated)},
                                       {"updatesPerFrame", field ? animation.updatesPerFrame() : 0},
                                       {"exposure", toneMap.exposure},
                                       {"frames", list},

@@ -47,7 +47,9 @@ Result<void> MovingScene::tellField() {
     if (!m_field) return {};
     const std::vector<Bounds> moving = movingBounds(*m_setup->scene, m_setup->pose);
     if (auto told = m_field->control().setMoving(moving); !told) return told;
-    return m_setup->settings.camera ? m_field->followCamera(m_setup->camera.position) : Result<void>();
+    if (m_setup->settings.camera)
+        if (auto followed = m_field->followCamera(m_setup->camera.position); !followed) return followed;
+    return setBudget(*m_field, *m_setup, *m_options);
 }
 
 Result<MovingScene> MovingScene::open(const Backend& backend, LoadedSetup& setup, const RenderOptions& options) {
@@ -90,8 +92,10 @@ Result<MoveTimes> MovingScene::moveTo(double seconds, int updates) {
     }
     times.edits = millisecondsSince(start);
     if (auto told = tellField(); !told) return told.error();
-    for (int i = 0; m_field && i < updates; ++i)
+    for (int i = 0; m_field && i < updates; ++i) {
+        times.updated.push_back(m_field->control().tasks().size());
         if (const auto updated = m_field->update(*m_tracer, m_setup->lighting); !updated) return updated.error();
+    }
     times.update = millisecondsSince(start);
     return times;
 }

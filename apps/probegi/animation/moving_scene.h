@@ -14,6 +14,7 @@ struct MoveTimes {
     double edits = 0;   ///< to find them
     double update = 0;  ///< all updates together
     int editsFound = 0;
+    std::vector<std::size_t> updated{};  ///< probes of each update
 };
 
 /// A scene, its tracer and its field, taken through time as an engine does: the pose changes, the field is told and

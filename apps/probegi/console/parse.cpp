@@ -133,6 +133,17 @@ Result<Exposure> parseExposure(std::string_view text) {
     return Exposure{false, (*factor)[0]};
 }
 
+Result<UpdateBudget> parseBudget(std::string_view text) {
+    UpdateBudget budget;
+    const bool timed = text.ends_with("ms");
+    const bool good =
+        timed ? parseWhole(text.substr(0, text.size() - 2), budget.milliseconds) : parseWhole(text, budget.rays);
+    if (!good || !budget.limits() || !(budget.milliseconds <= 1e6))
+        return expected(text,
+                        "a number of rays above 0, e.g. 20000, or of milliseconds above 0, up to 1000000, e.g. 4ms");
+    return budget;
+}
+
 CLI::Validator inRange(double lower, double upper) {
     return CLI::Validator(
         [lower, upper](std::string& text) {

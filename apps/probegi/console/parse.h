@@ -10,6 +10,7 @@
 
 #include "probegi/image.h"
 #include "probegi/tracer.h"
+#include "probegi/update_budget.h"
 #include "probegi/volume.h"
 
 namespace probegi::tool {
@@ -37,6 +38,8 @@ struct Exposure {
     std::optional<float> factor;  ///< empty without automatic, "scene": what the scene suggests
 };
 Result<Exposure> parseExposure(std::string_view text);  ///< "auto", "scene" or a number, 1e-9..1e9
+
+Result<UpdateBudget> parseBudget(std::string_view text);  ///< "RAYS", or "MSms": milliseconds; above 0
 
 /// Replaces CLI11's range check, which accepts NaN and does not name the option.
 CLI::Validator inRange(double lower, double upper);

@@ -74,6 +74,7 @@ struct GpuProbeStep {
     float lagShare;        // of its irradiance, relative
     float irradianceKept;  // share of the old values that is kept
     float visibilityKept;
+    float ownLag;  // kernels/blend/temporal_filter.h
 };
 
 // The passes around a blend with windows (probe_lag.comp, probe_windows.comp, probe_filter.comp).
@@ -90,7 +91,8 @@ struct FilterPush {
     float longestWindow;  // updates; forget: the windows
     float longestVisibilityWindow;
     uint ditherSeed;
-    int forget;  // 1: probe_filter.comp only writes forgottenFilter()
+    int forget;      // 1: probe_filter.comp only writes forgottenFilter()
+    uvec2 progress;  // out: ProbeProgress[slot] of the tasks, for a schedule; 0: nobody asks
 };
 KERNEL_CONST int kOwnRaysPacked = 2;
 
@@ -105,6 +107,7 @@ struct EventPush {
     int windows;                 // 1: steps and filters have windows
     float irradianceHysteresis;  // without windows: of probes outside
     float visibilityHysteresis;
+    uvec2 limits;  // EventLimit[slot], besides the regions; 0: none
 };
 
 // Both blends (blend_irradiance.comp, blend_visibility.comp).
@@ -170,8 +173,9 @@ struct PlacesPush {
     uint listed;  // chosen ones, or all
     uint moving;
     uint media;
-    int rays;   // of the caller, a task
-    int flags;  // kPlacesRelocate, kPlacesSleep, kPlacesPackedRays: rayData are PackedRayDatum
+    int rays;        // of the caller, a task
+    int flags;       // kPlacesRelocate, kPlacesSleep, kPlacesPackedRays: rayData are PackedRayDatum
+    uvec2 progress;  // out: ProbeProgress[slot], for a schedule that does not know who sleeps; 0: nobody asks
 };
 KERNEL_CONST int kPlacesRelocate = 1;
 KERNEL_CONST int kPlacesSleep = 2;
@@ -265,11 +269,11 @@ KERNELS_END
 namespace probegi::kernels {
 static_assert(offsetof(SceneConstants, tracer) == 140 && sizeof(SceneConstants) == 204 && sizeof(LightingBlock) == 40);
 static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(BlendPush) == 116 &&
-              sizeof(EnterPush) == 40 && sizeof(PlacementsPush) == 28 && sizeof(PlacesPush) == 88 &&
+              sizeof(EnterPush) == 40 && sizeof(PlacementsPush) == 28 && sizeof(PlacesPush) == 96 &&
               sizeof(TracePush) == 76);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 104);
-static_assert(sizeof(TasksPush) == 24 && sizeof(FilterPush) == 76 && sizeof(EventPush) == 48 &&
-              sizeof(EventRegion) == 32 && sizeof(GpuProbeStep) == 80);
+static_assert(sizeof(TasksPush) == 24 && sizeof(FilterPush) == 84 && sizeof(EventPush) == 56 &&
+              sizeof(EventRegion) == 32 && sizeof(GpuProbeStep) == 84);
 static_assert(sizeof(ToneMapPush) == 36 && sizeof(GpuSurface) == 76);
 }  // namespace probegi::kernels
 #endif

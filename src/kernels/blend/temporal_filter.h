@@ -172,6 +172,8 @@ struct LagAround {
     float bounced;  // sum of ProbeLag::bounced
     float level;    // sum of ProbeLag::level
     float distance;
+    float ownDirect;   // of the probe itself
+    float ownBounced;  // the same, of its own light
 };
 
 KERNEL_FN LagAround noLag() {
@@ -180,6 +182,8 @@ KERNEL_FN LagAround noLag() {
     around.bounced = 0.0f;
     around.level = 0.0f;
     around.distance = 0.0f;
+    around.ownDirect = 0.0f;
+    around.ownBounced = 0.0f;
     return around;
 }
 
@@ -191,6 +195,10 @@ KERNEL_FN void addLag(INOUT(LagAround) around, ProbeLag lag, float brightest, bo
     around.bounced += lag.bounced;
     around.level += level;
     around.distance = max(around.distance, share * lag.distance);
+    if (self) {
+        around.ownDirect = lag.direct / level;
+        around.ownBounced = lag.bounced / level;
+    }
 }
 
 // Without fixed rays, the update's own are used: a multiple of the noise of their mean light is subtracted before the
@@ -203,12 +211,48 @@ KERNEL_FN float lagBeyondNoise(float lag, float noise) {
 // The lag of a probe's irradiance, as a share of it. Bounced light has the noise of the averages that it comes from,
 // common to a room's probes if a small patch lights them all: a deviation that noise of this size explains in an
 // average of this window is not lag. Otherwise noise would shorten windows, which makes more noise.
-KERNEL_FN float filterLag(LagAround around, float noise, float window, bool ownRays) {
+KERNEL_FN float lagOf(float direct, float bounced, float noise, float window, bool ownRays) {
     const float left = noise * noise / max(2.0f * window - 1.0f, 1.0f);
-    const float bounced = around.bounced / max(around.level, 1e-30f);
     const float square = kBounceLag * kBounceLag * max(bounced * bounced - left, 0.0f);
-    const float lag = sqrt(around.direct * around.direct + square);
+    const float lag = sqrt(direct * direct + square);
     return ownRays ? lagBeyondNoise(lag, noise) : lag;
+}
+KERNEL_FN float filterLag(LagAround around, float noise, float window, bool ownRays) {
+    return lagOf(around.direct, around.bounced / max(around.level, 1e-30f), noise, window, ownRays);
+}
+// The same of what the probe sees itself, whatever its neighbours see.
+KERNEL_FN float ownLag(LagAround around, float noise, float window, bool ownRays) {
+    return lagOf(around.ownDirect, around.ownBounced, noise, window, ownRays);
+}
+
+// What an update tells a schedule of a probe: how far its light may be off, as shares of it. Lag and noise are 0 in
+// solid matter, where it does not matter.
+struct ProbeProgress {
+    float lag;         // that it saw itself, before the update
+    float noise;       // standard deviation left in its average, after the update; 0 as long as noise is unknown
+    float confidence;  // its window over the longest there is, 0..1
+    float level;       // of its light, W sr^-1 m^-2
+};
+
+// Of a probe that no update has.
+KERNEL_FN ProbeProgress noProgress() {
+    ProbeProgress progress;
+    progress.lag = 0.0f;
+    progress.noise = 0.0f;
+    progress.confidence = 0.0f;
+    progress.level = 0.0f;
+    return progress;
+}
+
+KERNEL_FN ProbeProgress probeProgress(float lagSeen, ProbeFilter state, float backfaceShare) {
+    const float heard = backfaceShare < kInsideShare + kInsideShareEdge ? 1.0f : 0.0f;
+    ProbeProgress progress = noProgress();
+    progress.lag = heard * lagSeen;
+    progress.noise = heard * state.noise / sqrt(max(2.0f * state.window - 1.0f, 1.0f));
+    progress.confidence = state.window / kLongestWindow;
+    for (int i = 0; i < kSightLobes; ++i) progress.level += state.direct[i] / float(kSightLobes);
+    progress.level = heard * (progress.level + max(state.bounced, 0.0f));
+    return progress;
 }
 
 // Share of the old value that an update keeps with a window of this length.

@@ -92,6 +92,10 @@ public:
         barrier(vk::PipelineStageFlagBits2::eTransfer, vk::AccessFlagBits2::eTransferWrite,
                 vk::PipelineStageFlagBits2::eComputeShader, kShaderAccess | vk::AccessFlagBits2::eUniformRead);
     }
+    void computeToHost() const {
+        barrier(vk::PipelineStageFlagBits2::eComputeShader, vk::AccessFlagBits2::eShaderWrite,
+                vk::PipelineStageFlagBits2::eHost, vk::AccessFlagBits2::eHostRead);
+    }
     void transferToHost() const {
         barrier(vk::PipelineStageFlagBits2::eTransfer, vk::AccessFlagBits2::eTransferWrite,
                 vk::PipelineStageFlagBits2::eHost, vk::AccessFlagBits2::eHostRead);

@@ -171,7 +171,8 @@ void FieldPasses::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBin
 FieldMemory FieldPasses::memory() const noexcept {
     return {m_irradiance.bytes(), m_visibility.bytes(),
             m_states.bytes() + m_tasks.bytes() + m_sides.bytes() + m_filters.bytes() + m_constants.bytes() +
-                m_directions.bytes() + m_surfaces.bytes() + m_bounds.bytes() + m_chosen.bytes() + m_events.bytes(),
+                m_directions.bytes() + m_surfaces.bytes() + m_bounds.bytes() + m_chosen.bytes() + m_events.bytes() +
+                m_limits.bytes() + m_progress.bytes(),
             m_irradianceWeights.bytes() + m_visibilityRays.bytes() + m_visibilityWeights.bytes() + m_hits.bytes() +
                 m_rayData.bytes() + m_fixedRays.bytes() + m_emitterLights.bytes() + m_steps.bytes() +
                 m_changes.bytes()};
@@ -189,6 +190,17 @@ void FieldPasses::makeRayBuffers(int looks) {
     m_rayData = Buffer(m_device.impl(), "probe ray data", rays * sizeof(RayDatum), kAddressed);
     m_hits = std::move(hits);
     m_fixedRays = std::move(fixedRays);
+}
+
+void FieldPasses::makeBudgetBuffers(const UpdateFrame& frame) {
+    if (!frame.limits.empty() && !m_limits)
+        m_limits =
+            Buffer(m_device.impl(), "limits of events", m_layout.probes * sizeof(kernels::EventLimit), kAddressed);
+    if (!frame.reportsProgress || m_progress) return;
+    m_progress = Buffer(m_device.impl(), "progress of probes", m_layout.probes * sizeof(kernels::ProbeProgress),
+                        kAddressed, MemoryUse::readback);
+    const auto progress = m_progress.mapped<kernels::ProbeProgress>();
+    std::fill(progress.begin(), progress.end(), kernels::ProbeProgress{0, -1, 0, 0});  // not known
 }
 
 void FieldPasses::recordClear(const Recorder& recorder, const FieldSettings& settings, const kernels::RaySet& rays) {
@@ -250,7 +262,8 @@ kernels::PlacesPush FieldPasses::placesPush(const UpdateFrame& frame, const Plac
             .media = std::uint32_t(places.media.size()),
             .rays = int(frame.directions.size()),
             .flags = (frame.desc.relocation ? kernels::kPlacesRelocate : 0) |
-                     (frame.desc.probeStates ? kernels::kPlacesSleep : 0)};
+                     (frame.desc.probeStates ? kernels::kPlacesSleep : 0),
+            .progress = frame.reportsProgress ? packAddress(m_progress.address()) : kernels::uvec2(0)};
 }
 
 void FieldPasses::recordPlaces(const Recorder& recorder, const UpdateFrame& frame, const PlacesFrame& places,
@@ -261,6 +274,7 @@ void FieldPasses::recordPlaces(const Recorder& recorder, const UpdateFrame& fram
         pipelines.get(scene->impl().shader("place_probes"));
     else
         pipelines.get("look_around");
+    makeBudgetBuffers(frame);
     recordSettings(recorder, frame.settings);
     recorder.orderAll();
     std::vector<kernels::GpuBounds> bounds;
@@ -428,7 +442,7 @@ void FieldPasses::recordBlend(const Recorder& recorder, const UpdateFrame& frame
         .linear = frame.linear ? 1 : 0,
         .emitterLights = packAddress(data.emitterLights),
         .looks = data.looks,
-        .steps = frame.windows || !frame.events.empty() ? packAddress(m_steps.address()) : kernels::uvec2(0),
+        .steps = frame.windows || frame.hasEvents() ? packAddress(m_steps.address()) : kernels::uvec2(0),
         .changes = packAddress(m_changes.address()),
         .filters = packAddress(m_filters.address()),
         .packedRays = data.format == RayFormat::packed ? 1 : 0});
@@ -455,16 +469,18 @@ void FieldPasses::recordWindows(const Recorder& recorder, const UpdateFrame& fra
 }
 
 void FieldPasses::recordEvents(const Recorder& recorder, const UpdateFrame& frame, Profiler* profiler) {
-    if (frame.events.empty()) return;
+    if (!frame.hasEvents()) return;
     const PassScope scope(recorder, m_device.impl(), profiler, "events");
-    recorder.push(kernels::EventPush{.tasks = packAddress(m_tasks.address()),
-                                     .steps = packAddress(m_steps.address()),
-                                     .filters = packAddress(m_filters.address()),
-                                     .regions = packAddress(m_events.address()),
-                                     .count = frame.events.count,
-                                     .windows = frame.windows ? 1 : 0,
-                                     .irradianceHysteresis = frame.hysteresis.irradiance,
-                                     .visibilityHysteresis = frame.hysteresis.visibility});
+    recorder.push(
+        kernels::EventPush{.tasks = packAddress(m_tasks.address()),
+                           .steps = packAddress(m_steps.address()),
+                           .filters = packAddress(m_filters.address()),
+                           .regions = packAddress(m_events.address()),
+                           .count = frame.events.count,
+                           .windows = frame.windows ? 1 : 0,
+                           .irradianceHysteresis = frame.hysteresis.irradiance,
+                           .visibilityHysteresis = frame.hysteresis.visibility,
+                           .limits = frame.limits.empty() ? kernels::uvec2(0) : packAddress(m_limits.address())});
     recorder.dispatchIndirect("probe_events", m_tasks, offsetof(kernels::GpuTaskCounts, perTask));
     recorder.computeToCompute();
 }
@@ -475,6 +491,7 @@ void FieldPasses::recordFilter(const Recorder& recorder, const UpdateFrame& fram
     const PassScope scope(recorder, m_device.impl(), profiler, "filter");
     recorder.push(filterPush(frame, data));
     recorder.dispatchIndirect("probe_filter", m_tasks, offsetof(kernels::GpuTaskCounts, perTask));
+    if (frame.reportsProgress) recorder.computeToHost();
 }
 
 kernels::FilterPush FieldPasses::filterPush(const UpdateFrame& frame, const RayAddresses& data) const {
@@ -493,7 +510,8 @@ kernels::FilterPush FieldPasses::filterPush(const UpdateFrame& frame, const RayA
             .longestWindow = frame.windows ? frame.longestWindow : 1.0f / (1.0f - frame.hysteresis.irradiance),
             .longestVisibilityWindow = frame.longestVisibilityWindow,
             .ditherSeed = frame.ditherSeed,
-            .forget = frame.windows ? 0 : 1};
+            .forget = frame.windows ? 0 : 1,
+            .progress = frame.reportsProgress ? packAddress(m_progress.address()) : kernels::uvec2(0)};
 }
 
 void FieldPasses::recordSolidProbes(const Recorder& recorder, Profiler* profiler) {
@@ -508,13 +526,15 @@ void FieldPasses::beginUpdate(const Recorder& recorder, const UpdateFrame& frame
     for (const char* shader : {"all_tasks", "count_tasks", "blend_weights", "probe_lag", "probe_windows",
                                "probe_filter", "blend_visibility", "find_solid_probes"})
         pipelines.get(shader);
-    if (!frame.events.empty()) pipelines.get("probe_events");
+    if (frame.hasEvents()) pipelines.get("probe_events");
+    makeBudgetBuffers(frame);
     pipelines.get("blend_irradiance", irradianceConstants(frame.settings));
     recordSettings(recorder, frame.settings);
     recorder.orderAll();
     recorder.write(m_directions, std::as_bytes(frame.directions));
     recorder.write(m_directions, std::as_bytes(frame.fixedDirections), frame.directions.size_bytes());
     if (!frame.events.empty()) recorder.write(m_events, std::as_bytes(frame.events.all()));
+    if (!frame.limits.empty()) recorder.write(m_limits, std::as_bytes(frame.limits));
     // No pass of this update asks for them: shaders of the caller do, after it.
     m_rays = frame.nextRays;
     recorder.write(m_constants, bytesOf(m_rays), offsetof(kernels::FieldConstants, rays));

@@ -95,6 +95,12 @@ public:
     const Buffer& sides() const noexcept { return m_sides; }
     const Buffer& filters() const noexcept { return m_filters; }
     const Buffer& tasks() const noexcept { return m_tasks; }
+    /// UpdateFrame::reportsProgress, by slot: of the last updates that the GPU has finished, in memory that it may be
+    /// writing. Empty before the first that was recorded with it.
+    std::span<const kernels::ProbeProgress> progress() const noexcept {
+        return m_progress ? m_progress.mapped<const kernels::ProbeProgress>()
+                          : std::span<const kernels::ProbeProgress>();
+    }
     bool watched() const noexcept { return m_desc.relocation || m_desc.probeStates; }
     const Device& device() const noexcept { return m_device; }
 
@@ -103,6 +109,8 @@ private:
     kernels::VolumeBlending blending(const FieldSettings& settings) const;
     void writeSet();
     void makeRayBuffers(int looks);
+    /// What an update with a budget needs besides.
+    void makeBudgetBuffers(const UpdateFrame& frame);
     void beginUpdate(const Recorder& recorder, const UpdateFrame& frame, int looks, Profiler* profiler);
     void recordTasks(const Recorder& recorder, const UpdateFrame& frame, int looks);
     kernels::PlacesPush placesPush(const UpdateFrame& frame, const PlacesFrame& places) const;
@@ -135,6 +143,8 @@ private:
     Buffer m_surfaces, m_bounds, m_chosen;  // of recorded updates with relocation or states: kernels::PlacesPush
     Buffer m_directions;                    // vec3 per ray: those of the update, then the fixed ones
     Buffer m_events;                        // EventRegion of the update
+    Buffer m_limits;                        // EventLimit per probe; created by the first update that has any
+    Buffer m_progress;                      // ProbeProgress per probe, for the host; the same
     Buffer m_irradianceWeights;             // float[ray][texel]
     Buffer m_visibilityRays;                // GpuTexelRays[texel]
     Buffer m_visibilityWeights;             // GpuRayWeight[entry][texel]

@@ -75,6 +75,7 @@ Result<void> GpuField::recordFollowCamera(VkCommandBuffer commands, glm::vec3 ca
         if ((*cells)[i] != glm::ivec3(0))
             if (auto scrolled = recordScroll(commands, int(i), (*cells)[i]); !scrolled) return scrolled;
     m_impl->books().settings.camera = camera;
+    m_impl->books().chooseTasks();
     return recordSettings(commands);
 }
 
@@ -86,7 +87,7 @@ Result<void> GpuField::recordUpdate(VkCommandBuffer commands, const GpuScene& sc
         if (m_impl->passes.watched()) m_impl->passes.recordPlaces(recorder, frame, m_impl->places(), &scene, profiler);
         m_impl->listedRays = {};
         m_impl->passes.recordUpdate(recorder, frame, scene, lighting, profiler);
-        m_impl->books().advance();
+        m_impl->advance();
     });
 }
 
@@ -132,7 +133,7 @@ Result<void> GpuField::recordUpdate(VkCommandBuffer commands, const BufferRange&
         m_impl->passes.recordUpdate(recorder, frame, data, profiler);
         if (watched) m_impl->passes.recordLook(recorder, data);
         m_impl->listedRays = {};
-        books.advance();
+        m_impl->advance();
     });
 }
 

@@ -31,7 +31,18 @@ struct GpuField::Impl {
         if (b.states.moving().size() + b.states.media().size() > kMostBounds)
             throw Failure(ErrorCode::invalidArgument, sentence("recorded updates take at most ", kMostBounds,
                                                                " bounds of moving things and media; join some"));
-        return {b.states.moving(), b.states.media(), b.chosen, b.taskLists};
+        if (!b.schedule.limited()) return {b.states.moving(), b.states.media(), b.chosen, b.taskLists};
+        picked.clear();
+        for (const ProbeTask& task : b.tasks) picked.push_back(task.slot);
+        return {b.states.moving(), b.states.media(), picked, b.taskLists};
+    }
+
+    /// After an update was recorded. The GPU tells late: of updates that it has finished by now.
+    void advance() {
+        books().advance();
+        if (!books().schedule.limited()) return;
+        books().schedule.hear(passes.progress());
+        books().chooseTasks();
     }
 
     FieldPasses passes;
@@ -40,6 +51,7 @@ struct GpuField::Impl {
         std::size_t update = 0, fixed = 0;
     };
     std::optional<ListedRays> listedRays;
+    std::vector<std::uint32_t> picked;  // slots of the tasks that a budget pays for
     FieldControl control;
 };
 

@@ -31,6 +31,7 @@ public:
     Result<FieldSnapshot> read(SlotRange slots) const override;
     Result<void> write(const FieldSnapshot& snapshot) override;
 
+    std::span<const kernels::ProbeProgress> progress() const noexcept override { return m_passes.progress(); }
     FieldMemory memory() const noexcept override;
     std::uint64_t fallbackQueries() const noexcept override;
 

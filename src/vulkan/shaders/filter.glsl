@@ -15,5 +15,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ProbeFilters
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TexelChanges {
     TexelChange at[];
 };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer ProbeProgresses {
+    ProbeProgress at[];
+};
 
 #endif

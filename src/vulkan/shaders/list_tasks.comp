@@ -1,6 +1,7 @@
 // The task list: the active ones among all probes, or among those that were chosen; without those that look-ups pass
 // over. Compacted group by group: tasks of neighbouring probes stay together, and which group comes first does not
 // matter, for a task's results depend on no other's.
+#include "filter.glsl"
 #include "tasks.glsl"
 
 #include "places.glsl"
@@ -19,6 +20,8 @@ void main() {
         slot = push.chosen == uvec2(0u) ? int(index) : int(Uints(push.chosen).at[index]);
         const uint state = stateOf(probegiStates.at[slot].placement);
         isTask = isActive(state) || state == kUninitialized;
+        // Nothing to do there: as if it had converged.
+        if (!isTask && push.progress != uvec2(0u)) ProbeProgresses(push.progress).at[slot] = noProgress();
     }
     if (isTask) atomicOr(marked[thread >> 5u], 1u << (thread & 31u));
     barrier();

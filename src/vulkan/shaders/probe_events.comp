@@ -9,9 +9,13 @@ layout(push_constant, scalar) uniform Push {
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer EventRegions {
     EventRegion at[];
 };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer EventLimits {
+    EventLimit at[];
+};
 
-EventLimit limitAt(vec3 position) {
+EventLimit limitOf(uint probe, vec3 position) {
     EventLimit limit = noEventLimit();
+    if (push.limits != uvec2(0u)) limit = EventLimits(push.limits).at[probe];
     for (int i = 0; i < push.count; ++i) addEventRegion(limit, EventRegions(push.regions).at[i], position);
     return limit;
 }
@@ -31,7 +35,7 @@ void main() {
     const uint index = globalIndex();
     if (index >= Tasks(push.tasks).counts.tasks) return;
     const ProbeTask task = Tasks(push.tasks).at[index];
-    const EventLimit limit = limitAt(task.origin);
+    const EventLimit limit = limitOf(task.slot, task.origin);
     if (push.windows != 0) {
         limitWindows(task.slot, limit);
         return;

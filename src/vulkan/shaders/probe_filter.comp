@@ -33,4 +33,7 @@ void main() {
         nextNoise(probeFilter.noise, changeOf(index, tasks), lag, probeFilter.window, isUnknown(probeFilter));
     advanceFilter(probeFilter, ProbeSteps(push.steps).at[probe].sight);
     ProbeFilters(push.filters).at[probe] = packFilter(probeFilter, storageDither(push.ditherSeed, number));
+    if (push.progress != uvec2(0u))
+        ProbeProgresses(push.progress).at[probe] =
+            probeProgress(ProbeSteps(push.steps).at[probe].ownLag, probeFilter, probegiStates.at[probe].backfaceShare);
 }

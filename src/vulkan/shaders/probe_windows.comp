@@ -35,6 +35,7 @@ void main() {
     ProbeFilter probeFilter = unpackFilter(ProbeFilters(push.filters).at[probe]);
     const LagAround around = lagAround(volume, probeCell(volume, int(probe)));
     const float lag = filterLag(around, probeFilter.noise, probeFilter.window, push.ownRays != 0);
+    ProbeSteps(push.steps).at[probe].ownLag = ownLag(around, probeFilter.noise, probeFilter.window, push.ownRays != 0);
     probeFilter.window = nextWindow(probeFilter.window, probeFilter.noise, lag, push.longestWindow);
     probeFilter.visibilityWindow =
         nextVisibilityWindow(probeFilter.visibilityWindow, around.distance, push.longestVisibilityWindow);

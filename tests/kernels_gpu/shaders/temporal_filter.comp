@@ -60,6 +60,14 @@ void evaluate(INOUT(Lane) lane) {
     const float noise = takeUnit(lane);
     give(lane, filterLag(around, noise, state.window, false), 1e-3f);
     give(lane, filterLag(around, 0.1f * noise, state.window, true), 1e-3f);
+    give(lane, ownLag(around, noise, state.window, false), 1e-3f);
+    give(lane, lagOf(noise, 0.5f * noise, 0.1f, state.window, false), 1e-3f);
+    give(lane, noProgress().lag, 0.0f);
+    const ProbeProgress progress = probeProgress(noise, state, 0.5f * noise);
+    give(lane, progress.lag, 1e-6f);
+    give(lane, progress.noise, 1e-5f);
+    give(lane, progress.confidence, 1e-6f);
+    give(lane, progress.level, 2e-5f);
     const float share = takeUnit(lane);
     give(lane, lagBeyondNoise(share, 0.0f), 1e-5f);
     give(lane, bearableWindow(state.window, noise, 0.1f + share, kLongestWindow), 1e-5f);
