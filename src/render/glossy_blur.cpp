@@ -26,11 +26,24 @@ struct Blocks {
         return frame.at(glossy.pixelX(sample.pixel), glossy.pixelY(sample.pixel), frame.firstPlane());
     }
     kernels::GlossyGuide guide(const kernels::GlossySample& sample) const { return guideOf(shown(sample)); }
-    float radius(const kernels::GlossySample& sample) const {
-        const ScreenSample& from = shown(sample);
-        return kernels::glossyBlurRadius(from.roughness, sample.distance, from.distance, pixelAngle);
-    }
 };
+
+// Of the rays around a block, as far as they stand for its own.
+float meanReach(const Blocks& blocks, int column, int row) {
+    const kernels::GlossyGuide centre = blocks.guide(blocks.glossy.sample(column, row));
+    float sum = 0.0f, weights = 0.0f;
+    for (int j = -kernels::kGlossyReachTaps; j <= kernels::kGlossyReachTaps; ++j)
+        for (int i = -kernels::kGlossyReachTaps; i <= kernels::kGlossyReachTaps; ++i) {
+            if (!blocks.glossy.contains(column + i, row + j)) continue;
+            const kernels::GlossySample& tap = blocks.glossy.sample(column + i, row + j);
+            if (tap.pixel < 0) continue;
+            const float weight = kernels::guideWeight(centre, blocks.guide(tap), 2.0f * std::sqrt(float(i * i + j * j)),
+                                                      blocks.pixelAngle);
+            sum += weight * tap.reach;
+            weights += weight;
+        }
+    return weights > 0.0f ? sum / weights : 0.0f;
+}
 
 // The weighted mean of (2 kGlossyTaps + 1)^2 blocks, `step` apart.
 glm::vec3 blurred(const Blocks& blocks, int column, int row, float step, float radius,
@@ -73,12 +86,26 @@ glm::vec3 upsampled(const Blocks& blocks, int x, int y, const ScreenSample& samp
 
 }  // namespace
 
+Result<void> collectGlossy(PictureTask& task, const PixelRect& part, Frame& frame) {
+    const Blocks blocks(task, frame);
+    forEachPixel(blocks.glossy.blocksOf(part), [&](int column, int row) {
+        kernels::GlossySample& sample = blocks.glossy.sample(column, row);
+        if (sample.pixel < 0) return;
+        const ScreenSample& hit = blocks.glossy.hits.at(column, row, 0);
+        sample.radiance = kernels::hitRadiance(materialOf(hit), -glm::dot(hit.viewDirection, hit.shadingNormal),
+                                               hit.direct, hit.irradiance, sample.radiance);
+        sample.radius = kernels::glossyBlurRadius(blocks.shown(sample).roughness, meanReach(blocks, column, row),
+                                                  blocks.pixelAngle);
+    });
+    return {};
+}
+
 Result<void> blurGlossy(PictureTask& task, const PixelRect& part, Frame& frame) {
     const Blocks blocks(task, frame);
     forEachPixel(blocks.glossy.blocksOf(part), [&](int column, int row) {
         kernels::GlossySample& sample = blocks.glossy.sample(column, row);
         if (sample.pixel < 0) return;
-        const float reach = std::min(blocks.radius(sample), float(kernels::kGlossyTaps) + 1.0f);
+        const float reach = std::min(sample.radius, float(kernels::kGlossyTaps) + 1.0f);
         sample.blurred = blurred(blocks, column, row, 1.0f, reach, &kernels::GlossySample::radiance);
     });
     return {};
@@ -89,7 +116,7 @@ Result<void> spreadGlossy(PictureTask& task, const PixelRect& part, Frame& frame
     forEachPixel(blocks.glossy.blocksOf(part), [&](int column, int row) {
         kernels::GlossySample& sample = blocks.glossy.sample(column, row);
         if (sample.pixel < 0) return;
-        const float radius = blocks.radius(sample), step = kernels::glossyStep(radius);
+        const float radius = sample.radius, step = kernels::glossyStep(radius);
         sample.radiance = sample.blurred;
         if (step <= 0.0f) return;
         const glm::vec3 wide = blurred(blocks, column, row, step, radius + step, &kernels::GlossySample::blurred);

@@ -1,4 +1,3 @@
-#include <glm/geometric.hpp>
 #include <vector>
 
 #include "render/frame_pass.h"
@@ -51,17 +50,6 @@ Result<void> queryReflections(PictureTask& task, const PixelRect& part, Frame& f
     if (auto asked = task.field->irradiance(scratch.queries, scratch.irradiance); !asked) return asked;
     for (std::size_t i = 0; i < scratch.results.size(); ++i)
         *scratch.results[i] = kernels::radianceOfIrradiance(scratch.irradiance[i]);
-    return {};
-}
-
-Result<void> collectGlossy(PictureTask&, const PixelRect& part, Frame& frame) {
-    GlossyFrame& glossy = *frame.glossy;
-    forEachPixel(glossy.blocksOf(part), [&](int column, int row) {
-        const ScreenSample& hit = glossy.hits.at(column, row, 0);
-        glm::vec3& radiance = glossy.sample(column, row).radiance;
-        radiance = kernels::hitRadiance(materialOf(hit), -glm::dot(hit.viewDirection, hit.shadingNormal), hit.direct,
-                                        hit.irradiance, radiance);
-    });
     return {};
 }
 

@@ -37,7 +37,8 @@ void collectRays(const PictureTask& task, const PixelRect& blocks, Frame& frame,
     forEachPixel(blocks, [&](int column, int row) {
         kernels::GlossySample& sample = glossy.sample(column, row);
         sample.radiance = sample.blurred = glm::vec3(0.0f);
-        sample.distance = kernels::kGlossySkyDistance;
+        sample.reach = 1.0f;  // of the sky
+        sample.radius = 0.0f;
         sample.pixel = pixelWithRay(frame, column, row);
         ScreenSample& hit = glossy.hits.at(column, row, 0);
         hit.viewDirection = {0, 0, -1};
@@ -74,7 +75,10 @@ Result<void> traceGlossy(PictureTask& task, const PixelRect& part, Frame& frame)
         ScreenSample& hit = glossy.hits.at(block.x, block.y, 0);
         if (scratch.hits[i].valid()) {
             showSurface(hit, scratch.hits[i].distance, scratch.surfaces[i]);
-            glossy.sample(block.x, block.y).distance = scratch.hits[i].distance;
+            kernels::GlossySample& sample = glossy.sample(block.x, block.y);
+            const ScreenSample& from =
+                frame.at(glossy.pixelX(sample.pixel), glossy.pixelY(sample.pixel), frame.firstPlane());
+            sample.reach = kernels::glossyReach(scratch.hits[i].distance, from.distance);
         } else {
             hit.direct = skyRadiance(task.lighting.sky, hit.viewDirection);
         }

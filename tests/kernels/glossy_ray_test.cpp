@@ -33,26 +33,33 @@ TEST(GlossyRay, allPixelsOfABlockAreTriedAndFourPlanesBeginWithAll) {
     EXPECT_EQ(first.size(), 4u);
 }
 
-// Any 4 x 4 blocks hold all 16 numbers, of which each quarter of a side has its share.
-TEST(GlossyRay, anyFourByFourBlocksAreEvenlySpread) {
+// Any 8 x 8 blocks hold 64 numbers, of which each eighth of a side has its share; and small groups nearly so.
+TEST(GlossyRay, anyEightByEightBlocksAreEvenlySpread) {
     for (const int plane : {0, 1, 7})
         for (const ivec2 corner : {ivec2(0, 0), ivec2(3, 1), ivec2(50, 27)}) {
-            int columns[4] = {}, rows[4] = {};
+            int columns[8] = {}, rows[8] = {};
             std::set<float> values;
-            for (int i = 0; i < 16; ++i) {
-                const vec2 u = glossyPattern(corner.x + i % 4, corner.y + i / 4, plane);
+            for (int i = 0; i < 64; ++i) {
+                const vec2 u = glossyPattern(corner.x + i % 8, corner.y + i / 8, plane);
                 ASSERT_GE(std::min(u.x, u.y), 0.0f);
                 ASSERT_LT(std::max(u.x, u.y), 1.0f);
-                ++columns[int(4 * u.x)];
-                ++rows[int(4 * u.y)];
+                ++columns[int(8 * u.x)];
+                ++rows[int(8 * u.y)];
                 values.insert(u.x);
             }
-            EXPECT_EQ(values.size(), 16u);
-            for (int k = 0; k < 4; ++k) {
-                EXPECT_NEAR(columns[k], 4, 1) << plane;
-                EXPECT_NEAR(rows[k], 4, 1) << plane;
+            EXPECT_EQ(values.size(), 64u);
+            for (int k = 0; k < 8; ++k) {
+                EXPECT_NEAR(columns[k], 8, 2) << plane;
+                EXPECT_NEAR(rows[k], 8, 2) << plane;
             }
         }
+}
+
+TEST(GlossyRay, reachIsTheShareOfTheWayBehindTheSurface) {
+    EXPECT_EQ(glossyReach(0.0f, 2.0f), 0.0f);
+    EXPECT_EQ(glossyReach(2.0f, 2.0f), 0.5f);
+    EXPECT_EQ(glossyReach(3.0f, 0.0f), 1.0f);
+    EXPECT_EQ(glossyReach(0.0f, 0.0f), 0.0f);
 }
 
 TEST(GlossyRay, aMirrorsRayIsTheMirrorImage) {

@@ -7,20 +7,21 @@
 
 KERNELS_BEGIN
 
+// Blocks around a ray over which its reach is averaged.
+KERNEL_CONST int kGlossyReachTaps = 2;
 // The narrow blur reaches so far, and the wide one this many times its step.
 KERNEL_CONST int kGlossyTaps = 3;
 // Blocks; the widest lobes are cut off there.
 KERNEL_CONST float kGlossyWidest = 15.0f;
 // Of a lobe's width on the screen: the rays have it already, so that all of it would double the lobe's variance.
-KERNEL_CONST float kGlossyBlurShare = 0.5f;
+KERNEL_CONST float kGlossyBlurShare = 0.75f;
 
-// How far samples around a ray are averaged, in blocks; up to 1: not at all. `pixelAngle`: of a pixel, radians;
-// distances are metres. Half of GGX's light leaves within 2 alpha of the mirror direction. The image lies as far behind
-// the surface as the ray went before it, so from afar, or next to what it shows, the lobe is narrow on the screen.
-KERNEL_FN float glossyBlurRadius(float roughness, float rayDistance, float viewDistance, float pixelAngle) {
+// How far samples around a ray are averaged, in blocks; up to 1: not at all. `reach`: the mean of glossyReach() around
+// it, since single rays of a wide lobe go far or not by chance; `pixelAngle`: of a pixel, radians. Half of GGX's light
+// leaves within 2 alpha of the mirror direction.
+KERNEL_FN float glossyBlurRadius(float roughness, float reach, float pixelAngle) {
     const float lobe = 2.0f * roughness * roughness;
-    const float onScreen = lobe * rayDistance / max(rayDistance + viewDistance, 1e-6f);
-    return min(kGlossyBlurShare * onScreen / (2.0f * pixelAngle), kGlossyWidest);
+    return min(kGlossyBlurShare * lobe * reach / (2.0f * pixelAngle), kGlossyWidest);
 }
 
 // Blocks from tap to tap of the wide blur; 0: it has nothing to do.
@@ -63,7 +64,7 @@ KERNEL_CONST float kGlossyLeastTurn = 0.1f;  // radians
 KERNEL_FN float guideWeight(IN(GlossyGuide) centre, IN(GlossyGuide) tap, float pixels, float pixelAngle) {
     const float covered = 0.5f * (pixels + 1.0f) * pixelAngle * centre.distance;
     const float off = dot(centre.geometricNormal, tap.position - centre.position) / max(covered, 1e-6f);
-    const float turn = kGlossyLeastTurn + centre.roughness * centre.roughness;
+    const float turn = kGlossyLeastTurn + 2.0f * centre.roughness * centre.roughness;
     const float turned = (1.0f - dot(centre.shadingNormal, tap.shadingNormal)) / (0.5f * turn * turn);
     const float rougher = abs(centre.roughness - tap.roughness) / kGlossyRoughnessStep;
     return max(1.0f - off * off, 0.0f) * max(1.0f - turned, 0.0f) * max(1.0f - rougher, 0.0f);

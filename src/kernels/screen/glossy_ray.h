@@ -8,14 +8,12 @@ KERNELS_BEGIN
 
 // One block of 2 x 2 samples.
 struct GlossySample {
-    vec3 radiance;   // of the ray, W sr^-1 m^-2; between passes of the blur: blurred twice
-    float distance;  // metres that the ray went; kGlossySkyDistance where it met nothing
-    vec3 blurred;    // once
-    int pixel;       // whose ray it is, row-major in the frame; -1: none of the block needs one
+    vec3 radiance;  // of the ray, W sr^-1 m^-2; between passes of the blur: blurred twice
+    float reach;    // glossyReach() of the ray
+    vec3 blurred;   // once
+    float radius;   // of the blur: glossyBlurRadius()
+    int pixel;      // whose ray it is, row-major in the frame; -1: none of the block needs one
 };
-
-// Metres; far beyond the width of any lobe.
-KERNEL_CONST float kGlossySkyDistance = 1e6f;
 
 // Up to the first roughness all comes from rays; from the second on from the field alone, whose cosine lobe is about
 // as wide as theirs.
@@ -40,14 +38,24 @@ KERNEL_FN int glossyCandidate(int plane, int attempt) {
     return order == 0 ? 0 : (order == 1 ? 3 : (order == 2 ? 1 : 2));
 }
 
-// Random numbers of a block: 4 x 4 blocks share 16 neighbours of a sequence of low discrepancy (multiples of the powers
-// of the plastic number's inverse), which any blur over 4 x 4 brings together; planes go on in it.
+// A bit of both coordinates in Bayer's order: diagonal neighbours follow each other.
+KERNEL_FN int glossyBayer(int x, int y, int bit) {
+    const int along = (x >> bit) & 1;
+    const int down = (y >> bit) & 1;
+    return 2 * (along ^ down) + down;
+}
+
+// Random numbers of a block: 8 x 8 blocks share 64 points of a sequence of low discrepancy (multiples of the powers of
+// the plastic number's inverse), in an order by which small groups are evenly spread too; planes go on in it.
 KERNEL_FN vec2 glossyPattern(int x, int y, int plane) {
-    const int bits = (x & 1) + 2 * (y & 1);
-    const int coarse = ((x >> 1) & 1) + 2 * ((y >> 1) & 1);
-    // Bayer's order, so that neighbours are far apart in the sequence.
-    const int order = 4 * (bits ^ (bits >> 1)) + (coarse ^ (coarse >> 1)) + 16 * plane;
+    const int order = 16 * glossyBayer(x, y, 0) + 4 * glossyBayer(x, y, 1) + glossyBayer(x, y, 2) + 64 * plane;
     return fract(vec2(0.5f) + float(order) * vec2(0.7548776662f, 0.5698402910f));
+}
+
+// How much of a turn of the ray is seen on the screen, 0..1: the image lies as far behind the surface as the ray went
+// before it. From afar, or next to what it shows, a lobe is narrow; reflecting the sky, it is as wide as it is. Metres.
+KERNEL_FN float glossyReach(float rayDistance, float viewDistance) {
+    return rayDistance / max(rayDistance + viewDistance, 1e-6f);
 }
 
 // A direction that leaves the surface: one from below is mirrored at it.

@@ -93,7 +93,7 @@ std::vector<GpuPass> gpuPasses(const SceneObjects& objects, const PictureDesc& d
 }
 
 // As picture_glossy.glsl has it.
-static_assert(sizeof(ScreenSample) == 100 && sizeof(kernels::GlossySample) == 32);
+static_assert(sizeof(ScreenSample) == 100 && sizeof(kernels::GlossySample) == 36);
 
 std::uint32_t glossyBlocks(int width, int rows) {
     return std::uint32_t(kernels::glossyBlocks(width)) * std::uint32_t(kernels::glossyBlocks(rows));

@@ -20,11 +20,6 @@ ScreenSample shownBy(GlossySample block) {
     return Samples(push.samples).at[block.pixel];
 }
 
-float blurRadius(GlossySample block) {
-    const ScreenSample from = shownBy(block);
-    return glossyBlurRadius(from.roughness, block.distance, from.distance, pixelAngle());
-}
-
 // The weighted mean of (2 kGlossyTaps + 1)^2 blocks, `step` apart: of what was blurred once, or of the rays themselves.
 vec3 blurredAt(int index, float step, float radius, bool again) {
     const ivec2 size = glossySize(push);

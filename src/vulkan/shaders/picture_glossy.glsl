@@ -31,7 +31,7 @@ GlossySamples glossySamples(PicturePush push) {
 }
 
 Vec3s glossyLobes(PicturePush push) {
-    return Vec3s(addAddress(push.glossy, uvec2(glossyCount(push) * 132u, 0u)));
+    return Vec3s(addAddress(push.glossy, uvec2(glossyCount(push) * 136u, 0u)));
 }
 
 // The material of a sample, as pictures with all lobes have it.

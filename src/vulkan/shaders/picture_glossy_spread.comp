@@ -6,7 +6,7 @@ void main() {
     if (index >= glossyCount(push)) return;
     const GlossySample block = glossySamples(push).at[index];
     if (block.pixel < 0) return;
-    const float radius = blurRadius(block);
+    const float radius = block.radius;
     const float step = glossyStep(radius);
     vec3 radiance = block.blurred;
     if (step > 0.0) {

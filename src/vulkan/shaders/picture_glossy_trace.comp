@@ -56,7 +56,8 @@ void main() {
     GlossySample block;
     block.radiance = vec3(0.0);
     block.blurred = vec3(0.0);
-    block.distance = kGlossySkyDistance;
+    block.reach = 1.0;  // of the sky
+    block.radius = 0.0;
     block.pixel = pixelWithRay(column, row);
     ScreenSample s = blackSky();
     if (block.pixel >= 0) {
@@ -80,7 +81,7 @@ void main() {
             s.metallic = surface.metallic;
             s.roughness = surface.roughness;
             s.distance = hit.distance;
-            block.distance = hit.distance;
+            block.reach = glossyReach(hit.distance, from.distance);
         }
     }
     glossyHits(push).at[index] = s;

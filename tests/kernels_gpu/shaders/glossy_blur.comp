@@ -18,7 +18,7 @@ void evaluate(INOUT(Lane) lane) {
     const GlossyGuide tap = takeGuide(lane, normal);
     give(lane, guideWeight(centre, tap, takeBetween(lane, 0.0f, 20.0f), 1e-2f), 1e-4f);
     const float far = takeBetween(lane, 0.0f, 10.0f);
-    const float radius = glossyBlurRadius(takeUnit(lane), far, centre.distance, 2e-3f);
+    const float radius = glossyBlurRadius(takeUnit(lane), 0.1f * far, 2e-3f);
     give(lane, radius, 1e-5f);
     give(lane, glossyStep(radius), 1e-5f);
     give(lane, glossyWideShare(radius), 1e-4f);

@@ -16,7 +16,9 @@ void evaluate(INOUT(Lane) lane) {
     give(lane, glossyRayShare(takeUnit(lane)), 1e-5f);
     give(lane, float(glossyBlocks(x)), 0.0f);
     give(lane, float(glossyCandidate(plane, x & 3)), 0.0f);
-    giveVec2(lane, glossyPattern(x, y, plane), 1e-4f);
+    giveVec2(lane, glossyPattern(x, y, plane), 1e-3f);
+    give(lane, float(glossyBayer(x, y, plane & 3)), 0.0f);
+    give(lane, glossyReach(float(x), float(y)), 1e-6f);
     giveVec3(lane, mirrorDirection(normal, normal, towards), 1e-5f);
     // Near the horizon a rounding decides on which side the direction is mirrored, which the height's size does not
     // see.
