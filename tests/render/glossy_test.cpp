@@ -49,7 +49,9 @@ TEST(GlossyPicture, aFurnaceIsTheLobesAlbedo) {
                 for (int x = 0; x < width; ++x) {
                     const glm::vec3 wanted = furnace.sky.radiance * reflectance(desc, white, x, y);
                     ASSERT_LT(glm::distance(p.color.at(x, y), wanted), 1e-4f) << roughness << ' ' << x << ' ' << y;
-                    if (roughness == 0.0f) ASSERT_NEAR(p.color.at(x, y).x, 2.0f, 0.026f);
+                    if (roughness == 0.0f) {
+                        ASSERT_NEAR(p.color.at(x, y).x, 2.0f, 0.026f);
+                    }
                 }
         }
     }

@@ -19,6 +19,7 @@ void evaluate(INOUT(Lane) lane) {
     giveVec2(lane, glossyPattern(x, y, plane), 1e-3f);
     give(lane, float(glossyBayer(x, y, plane & 3)), 0.0f);
     give(lane, glossyReach(float(x), float(y)), 1e-6f);
+    giveVec3(lane, aboveSurface(towards, normal), 1e-5f);
     giveVec3(lane, mirrorDirection(normal, normal, towards), 1e-5f);
     // Near the horizon a rounding decides on which side the direction is mirrored, which the height's size does not
     // see.
