@@ -40,7 +40,7 @@ Result<std::vector<GlossyRow>> measureGlossy(const Context& context, const std::
         if (!drawn) return drawn.error();
         const auto error = compareImages(drawn->picture.color, truth->picture.color, toneMap);
         if (!error) return error.error();
-        rows.push_back({name, word, error->difference, 1e6 * drawn->times.glossy / (double(kWidth) * kHeight)});
+        rows.push_back({name, word, error->difference});
     }
     const auto exact = noiseFloor(truth->picture.color, truth->standardError, 1, toneMap);
     if (!exact) return exact.error();
@@ -52,15 +52,13 @@ std::string glossyTable(const std::vector<GlossyRow>& rows) {
     if (rows.empty()) return {};
     std::string text =
         "\n### Glossy light, all of the picture against the path tracer\n\n"
-        "`exact` is the score of the reference with noise of its own again. Times are of the passes of "
-        "`PictureDesc::glossy` alone, with 2 x 2 samples a pixel, and depend on the machine.\n\n"
-        "| scene | glossy | RMSE | mean ratio | FLIP | ms per million pixels |\n"
-        "|---|---|---:|---:|---:|---:|\n";
+        "`exact` is the score of the reference with noise of its own again.\n\n"
+        "| scene | glossy | RMSE | mean ratio | FLIP |\n"
+        "|---|---|---:|---:|---:|\n";
     for (const GlossyRow& row : rows)
-        text += row.missing.empty() ? fmt::format("| {} | {} | {:.4f} | {:.3f} | {:.4f} | {} |\n", row.scene,
-                                                  row.glossy, row.error.rmse, row.error.ratio.mean, row.error.flip,
-                                                  row.milliseconds > 0 ? fmt::format("{:.0f}", row.milliseconds) : "")
-                                    : fmt::format("| {} | {} | | | | |\n", row.scene, row.missing);
+        text += row.missing.empty() ? fmt::format("| {} | {} | {:.4f} | {:.3f} | {:.4f} |\n", row.scene, row.glossy,
+                                                  row.error.rmse, row.error.ratio.mean, row.error.flip)
+                                    : fmt::format("| {} | {} | | | |\n", row.scene, row.missing);
     return text;
 }
 

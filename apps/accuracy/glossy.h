@@ -13,8 +13,7 @@ struct GlossyRow {
     std::string scene;
     std::string glossy;  ///< "off", "first", "field"; "exact": the score of the reference's own noise
     ImageDifference error{};
-    double milliseconds = 0;  ///< of the passes, per million pixels
-    std::string missing{};    ///< why the scene could not be measured; empty: it was
+    std::string missing{};  ///< why the scene could not be measured; empty: it was
 };
 
 /// Pictures of a setup with each value of PictureDesc::glossy, lit by its converged field. Errors: those of the field,
