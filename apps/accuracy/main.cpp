@@ -9,6 +9,7 @@
 #include "console/terminal.h"
 #include "events.h"
 #include "flight.h"
+#include "glossy.h"
 #include "leak_sweep.h"
 #include "markdown.h"
 #include "motion.h"
@@ -220,6 +221,30 @@ Result<std::string> budgets(const Context& context, const Options& options) {
     return budgetTable(rows);
 }
 
+/// All light of two scenes with metals or polished floors, and of one with neither.
+Result<std::string> glossy(const Context& context, const Options& options) {
+    std::vector<GlossyRow> rows;
+    tool::SceneOptions mirrors, other, atrium, sponza;
+    mirrors.scene = other.scene = "builtin:mirrors";
+    other.camera = "mirror";
+    atrium.scene = "builtin:atrium";
+    for (const Case& entry : cases(options))
+        if (entry.name == "sponza") sponza = entry.options;
+    for (const auto& [name, scene] :
+         {std::pair("mirrors", mirrors), {"mirrors, at a mirror", other}, {"atrium", atrium}, {"sponza", sponza}}) {
+        if (!options.scene.empty() && options.scene != name) continue;
+        const auto setup = tool::loadSetup(scene);
+        if (!setup) {
+            rows.push_back({.scene = name, .glossy = {}, .missing = setup.error().message});
+            continue;
+        }
+        const auto measured = measureGlossy(context, name, *setup, options.samplesPerPixel);
+        if (!measured) return measured.error();
+        rows.insert(rows.end(), measured->begin(), measured->end());
+    }
+    return glossyTable(rows);
+}
+
 Result<void> measure(const Options& options) {
     const auto context = tool::makeContext(options.threads);
     if (!context) return context.error();
@@ -256,6 +281,7 @@ Result<void> measure(const Options& options) {
                                       {"motion", motion},
                                       {"budget", budgets},
                                       {"flight", flights},
+                                      {"glossy", glossy},
                                       {"outside", outside}}) {
         if (!wanted(name)) continue;
         const auto made = table(*context, options);
@@ -278,13 +304,14 @@ int run(int argc, char** argv) {
     if (const char* folder = std::getenv("PROBEGI_SCENES"); folder && *folder) options.scenesFolder = folder;
     app.add_option("-o,--output", options.page, "page whose measured part is replaced (default: print)")
         ->type_name("FILE");
-    app.add_option("--only", options.only,
-                   "print the tables of one scene, the leak, its sweep, the surfaces, placement, motion, budgets, "
-                   "events, a flight "
-                   "or what is outside of volumes, and write nothing")
+    app.add_option(
+           "--only", options.only,
+           "print the tables of one scene, the leak, its sweep, the surfaces, placement, motion, budgets, events, "
+           "a flight, what is outside of volumes or glossy light, and write nothing")
         ->type_name(
-            "cornell|two-rooms|dark-room|sponza|leak|sweep|surfaces|placement|motion|budget|events|flight|outside");
-    app.add_option("--scene", options.scene, "of placement and budget: this scene only");
+            "cornell|two-rooms|dark-room|sponza|leak|sweep|surfaces|placement|motion|budget|events|flight|outside|"
+            "glossy");
+    app.add_option("--scene", options.scene, "of placement, budget and glossy: this scene only");
     app.add_flag("--leaky", options.leaky, "placement: without a visibility test");
     app.add_option("--scenes", options.scenesFolder, "folder of the real scenes (default: PROBEGI_SCENES)")
         ->capture_default_str();

@@ -28,6 +28,8 @@ const HdrImage& layerOf(const Picture& picture, Aov aov) {
             return picture.direct;
         case Aov::indirect:
             return picture.indirect;
+        case Aov::glossy:
+            return picture.glossy;
         case Aov::color:
             break;
     }
@@ -71,7 +73,8 @@ HdrImage asWhiteSurface(HdrImage irradiance) {
 }  // namespace
 
 bool isLight(Aov aov) {
-    return aov == Aov::color || aov == Aov::direct || aov == Aov::indirect || aov == Aov::irradiance;
+    return aov == Aov::color || aov == Aov::direct || aov == Aov::indirect || aov == Aov::irradiance ||
+           aov == Aov::glossy;
 }
 
 HdrImage shownLayer(const Picture& picture, Aov aov) {

@@ -7,7 +7,7 @@
 namespace probegi::tool {
 
 /// Which layer of a Picture is written.
-enum class Aov { color, irradiance, normal, albedo, depth, direct, indirect };
+enum class Aov { color, irradiance, normal, albedo, depth, direct, indirect, glossy };
 
 /// Whether a layer is light, to which exposure and the filmic curve apply.
 bool isLight(Aov aov);

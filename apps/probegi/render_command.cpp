@@ -29,6 +29,7 @@ Example: probegi render builtin:cornell -o cornell.png
 Example: probegi render builtin:cornell -o darker.png --exposure 0.8
 Example: probegi render sponza.glb -o sponza.exr --camera nave --sky 0.3,0.4,0.6 --size 1920x1080 --stats stats.json
 Example: probegi render builtin:house -o house.png --backend vulkan
+Example: probegi render builtin:mirrors -o mirrors.png --glossy field
 Example: probegi render sponza.glb -o near.png --camera nave --sky 0.3,0.4,0.6 --cascades 4
 Example: probegi render sponza.glb -o seams.png --camera nave --sky 0.3,0.4,0.6 --cascades 4 --debug volumes
 Example: probegi render builtin:house -o truth.png --method reference --time 30
@@ -64,6 +65,7 @@ Result<Picture> drawWithField(const Context&, const Backend& backend, const Trac
         (*renderer)->render(tracer, setup.lighting, *field ? &**field : nullptr, pictureDesc(options, setup));
     if (!rendered) return rendered.error();
     stats.pictureMs = rendered->times.total;
+    if (options.glossy != Glossy::off) stats.glossyMs = rendered->times.glossy;
     return std::move(rendered->picture);
 }
 
@@ -92,6 +94,8 @@ void warnAboutUnusedOptions(const RenderOptions& options) {
     const bool reference = options.method == Method::reference;
     if (!reference && (options.samplesPerPixel || options.seconds || options.guide))
         printWarning("--spp, --time and --guide act on --method reference only");
+    if (options.glossy != Glossy::off && (reference || options.diffuseOnly))
+        printWarning("--glossy does nothing with --method reference and with --diffuse-only");
     const bool probes = hasProbes(options);
     if (!probes && (options.run.frames || options.run.tolerance))
         printWarning("--frames and --tolerance act on --method ddgi and leaky, and on --guide on, only");
@@ -106,6 +110,11 @@ void warnAboutUnusedOptions(const RenderOptions& options) {
 
 void checkOptions(const CLI::App& command, const RenderOptions& options) {
     checkBackendOptions(command, options.backend);
+    const bool glossy = options.glossy != Glossy::off && options.method != Method::reference && !options.diffuseOnly;
+    if (options.aov == Aov::glossy && !glossy)
+        throw CLI::ValidationError("--aov",
+                                   "this picture has no glossy layer; it takes --glossy first or field, and "
+                                   "neither --method reference nor --diffuse-only");
     if (!options.debug.empty() && (options.method == Method::none || options.method == Method::reference))
         throw CLI::ValidationError("--debug", "--method none and reference have no probes to show");
     if (!options.budget.empty() && (!hasProbes(options) || (options.animate.empty() && !options.run.frames)))
@@ -159,8 +168,8 @@ Result<void> render(const RenderOptions& options) {
 
 void addPictureOptions(CLI::App& command, RenderOptions& options) {
     static const std::map<std::string, Aov> kAovs{
-        {"color", Aov::color}, {"irradiance", Aov::irradiance}, {"normal", Aov::normal},    {"albedo", Aov::albedo},
-        {"depth", Aov::depth}, {"direct", Aov::direct},         {"indirect", Aov::indirect}};
+        {"color", Aov::color}, {"irradiance", Aov::irradiance}, {"normal", Aov::normal},     {"albedo", Aov::albedo},
+        {"depth", Aov::depth}, {"direct", Aov::direct},         {"indirect", Aov::indirect}, {"glossy", Aov::glossy}};
     command
         .add_option(
             "-o,--output", options.output,
@@ -172,7 +181,7 @@ void addPictureOptions(CLI::App& command, RenderOptions& options) {
         ->check(parsedBy(parseSize))
         ->capture_default_str();
     command.add_option("--aov", options.aov, "write this layer instead of the picture")
-        ->type_name("irradiance|normal|albedo|depth|direct|indirect")
+        ->type_name("irradiance|normal|albedo|depth|direct|indirect|glossy")
         ->transform(oneOf(kAovs));
     std::vector<std::string> debugNames;
     std::string debugHelp = "a picture of what the probes do:";
@@ -190,6 +199,15 @@ void addPictureOptions(CLI::App& command, RenderOptions& options) {
     command.add_flag("--filmic", options.filmic,
                      "bright light of a .png rolls off smoothly instead of clipping at white");
     command.add_flag("--diffuse-only", options.diffuseOnly, "all materials as matt surfaces of their base colour");
+    static const std::map<std::string, Glossy> kGlossy{
+        {"off", Glossy::off}, {"first", Glossy::first}, {"field", Glossy::field}};
+    command
+        .add_option("--glossy", options.glossy,
+                    "reflections: none (off, the default: all but lamps is seen by matt light), traced at half the "
+                    "resolution (first), and in them further ones from the probes (field); not for reference, which "
+                    "has them all")
+        ->type_name("off|first|field")
+        ->transform(oneOf(kGlossy));
     command.add_option("--stats", options.stats, "write probes, frames, times in ms and memory as JSON")
         ->type_name("FILE");
 }

@@ -17,7 +17,7 @@ bool hasProbes(const RenderOptions& options) {
 
 PictureDesc pictureDesc(const RenderOptions& options, const LoadedSetup& setup) {
     const PictureSize size = *parseSize(options.size);
-    return {setup.camera, size.width, size.height, options.antialias, options.diffuseOnly};
+    return {setup.camera, size.width, size.height, options.antialias, options.diffuseOnly, options.glossy};
 }
 
 Result<std::optional<Field>> makeEmptyField(const Backend& backend, const LoadedSetup& setup,

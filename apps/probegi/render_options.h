@@ -32,6 +32,7 @@ struct RenderOptions {
     std::string size = "960x540";
     int antialias = 2;
     bool diffuseOnly = false;
+    Glossy glossy = Glossy::off;
     bool filmic = false;
     std::uint64_t seed = 1;
     int rays = FieldDesc{}.raysPerProbe;

@@ -31,7 +31,7 @@ std::string statsJson(const RenderStats& stats) {
     nlohmann::ordered_json converged, remaining;  // null
     if (convergence) converged = convergence->converged;
     if (convergence && std::isfinite(convergence->remaining)) remaining = convergence->remaining;
-    const nlohmann::ordered_json json{
+    nlohmann::ordered_json json{
         {"probes", stats.probes},
         {"activeProbes", stats.active},
         {"raysPerProbe", stats.raysPerProbe},
@@ -40,8 +40,9 @@ std::string statsJson(const RenderStats& stats) {
         {"converged", converged},
         {"remaining", remaining},
         {"updateMs", {{"trace", ms.trace}, {"shade", ms.shade}, {"blend", ms.blend}, {"total", ms.total}}},
-        {"pictureMs", stats.pictureMs},
-        {"peakMemoryBytes", peakMemoryBytes()}};
+        {"pictureMs", stats.pictureMs}};
+    if (stats.glossyMs) json["glossyMs"] = *stats.glossyMs;
+    json["peakMemoryBytes"] = peakMemoryBytes();
     return jsonText(json);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "probegi/export.h"
@@ -19,6 +20,15 @@ struct Picture {
     HdrImage albedo;      ///< base colour
     HdrImage normal;      ///< world-space shading normal, components -1..1
     HdrImage depth;       ///< distance from the camera in metres, in all three channels; 0 where the sky is visible
+    /// Radiance of the glossy lobes, a part of `indirect`. Empty (0 x 0) but with PictureDesc::glossy.
+    HdrImage glossy{};
+};
+
+/// Reflections of more than punctual lights (DDGI paper, section 4.4).
+enum class Glossy : std::uint8_t {
+    off,    ///< none: indirect light is reflected as by Lambert surfaces of the base colour, metals too
+    first,  ///< rays at half the resolution; of what they hit, the emission and the diffuse light
+    field,  ///< and its own glossy light, from the field: second and later reflections, at maximum roughness
 };
 
 struct PictureDesc {
@@ -27,6 +37,9 @@ struct PictureDesc {
     int height = 540;          ///< 1..16384
     int samplesPerAxis = 2;    ///< supersampling of primary rays, 1..8; the layers are box-filtered
     bool diffuseOnly = false;  ///< render all materials as Lambert with their base colour
+    /// Beyond a roughness of 0.75 (fading from 0.6 on) all of it is from the field, without a ray; nothing without one.
+    /// Ignored with diffuseOnly, and by the path tracer, which has all light.
+    Glossy glossy = Glossy::off;
 };
 
 /// Timings of one picture, milliseconds.
@@ -34,6 +47,7 @@ struct PictureTimes {
     double primary = 0;
     double direct = 0;
     double query = 0;
+    double glossy = 0;  ///< all passes of PictureDesc::glossy
     double total = 0;
 };
 

@@ -16,12 +16,14 @@ Result<void> validatePictureDesc(const PictureDesc& desc) {
     if (desc.samplesPerAxis < 1 || desc.samplesPerAxis > 8)
         return fail(ErrorCode::invalidArgument,
                     sentence("samplesPerAxis is ", desc.samplesPerAxis, "; it must be 1 to 8"));
+    if (desc.glossy != Glossy::off && desc.glossy != Glossy::first && desc.glossy != Glossy::field)
+        return fail(ErrorCode::invalidArgument, "glossy is none of the values of probegi::Glossy");
     return {};
 }
 
 Picture emptyPicture(int width, int height) {
     const auto layer = [=] { return HdrImage(width, height); };
-    return {layer(), layer(), layer(), layer(), layer(), layer(), layer()};
+    return {layer(), layer(), layer(), layer(), layer(), layer(), layer(), {}};
 }
 
 Error pictureDoesNotFit(const PictureDesc& desc) {

@@ -15,10 +15,15 @@ struct PixelRect {
     std::size_t pixels() const noexcept { return std::size_t(width) * std::size_t(height); }
 };
 
+class GlossyFrame;
+
 /// The G-buffer of a rectangle of a picture: one plane of samples, one a pixel, row-major; or several planes, those of
 /// a pixel side by side. The n-th plane has the n-th sub-sample of all pixels.
 class Frame {
 public:
+    /// Of a picture with PictureDesc::glossy, as large as this; else null.
+    GlossyFrame* glossy = nullptr;
+
     /// The frame is now there. Samples are not initialised: the first pass writes all, on the threads that use them
     /// next.
     void place(const PixelRect& rect, int firstPlane, int planes) {

@@ -4,7 +4,7 @@
 
 #include "geometry/picture_passes.h"
 #include "kernels/screen/pinhole.h"
-#include "render/frame.h"
+#include "render/glossy_frame.h"
 
 namespace probegi {
 
@@ -40,6 +40,14 @@ struct FramePass {
 Result<void> castPrimary(PictureTask& task, const PixelRect& part, Frame& frame);
 Result<void> shadeDirect(PictureTask& task, const PixelRect& part, Frame& frame);
 Result<void> queryField(PictureTask& task, const PixelRect& part, Frame& frame);
+Result<void> traceGlossy(PictureTask& task, const PixelRect& part, Frame& frame);
+Result<void> lightGlossyHits(PictureTask& task, const PixelRect& part, Frame& frame);
+Result<void> queryGlossyHits(PictureTask& task, const PixelRect& part, Frame& frame);
+Result<void> queryReflections(PictureTask& task, const PixelRect& part, Frame& frame);
+Result<void> collectGlossy(PictureTask& task, const PixelRect& part, Frame& frame);
+Result<void> blurGlossy(PictureTask& task, const PixelRect& part, Frame& frame);
+Result<void> spreadGlossy(PictureTask& task, const PixelRect& part, Frame& frame);
+Result<void> shadeGlossy(PictureTask& task, const PixelRect& part, Frame& frame);
 Result<void> accumulateLayers(PictureTask& task, const PixelRect& part, Frame& frame);
 
 constexpr PassFunction passFunction(PicturePass pass) {
@@ -50,14 +58,30 @@ constexpr PassFunction passFunction(PicturePass pass) {
             return shadeDirect;
         case PicturePass::query:
             return queryField;
+        case PicturePass::glossyTrace:
+            return traceGlossy;
+        case PicturePass::glossyDirect:
+            return lightGlossyHits;
+        case PicturePass::glossyQuery:
+            return queryGlossyHits;
+        case PicturePass::glossyField:
+            return queryReflections;
+        case PicturePass::glossyLight:
+            return collectGlossy;
+        case PicturePass::glossyBlur:
+            return blurGlossy;
+        case PicturePass::glossySpread:
+            return spreadGlossy;
+        case PicturePass::glossyShade:
+            return shadeGlossy;
         case PicturePass::accumulate:
             return accumulateLayers;
     }
     return nullptr;
 }
 
-/// kPicturePasses on the CPU.
-std::vector<FramePass> picturePasses();
+/// kPicturePasses on the CPU, those that the picture has.
+std::vector<FramePass> picturePasses(const PictureDesc& desc = {});
 
 /// Calls visit(x, y) for the pixels of a part, row by row.
 template <class Visit>

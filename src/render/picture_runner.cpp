@@ -92,9 +92,12 @@ Result<void> PictureRunner::runFrames(std::size_t framePixels) {
     const auto [width, height] = std::pair(m_task.desc.width, m_task.desc.height);
     const int rows = frameRows(m_task.desc, framePixels);
     Frame frame;
+    GlossyFrame glossy;
+    if (hasGlossy(m_task.desc)) frame.glossy = &glossy;
     for (int y = 0; y < height; y += rows)
         for (int plane = 0; plane < m_planes; ++plane) {
             frame.place({0, y, width, std::min(rows, height - y)}, plane, 1);
+            if (frame.glossy) glossy.place(frame.rect());
             if (auto done = runFrame(frame); !done) return done;
         }
     return {};

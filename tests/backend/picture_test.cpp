@@ -124,6 +124,26 @@ TEST_P(BackendPicture, diffuseOnlyAndWithoutFieldToo) {
     for (const glm::vec3& pixel : taken.own.indirect.pixels) EXPECT_EQ(pixel, glm::vec3(0.0f));
 }
 
+// Glossy light, with mirrors, metals and a field of its own; cut blocks; without a field.
+TEST_P(BackendPicture, glossyLightIsTheCpus) {
+    const Scene scene = *makeBuiltinScene("mirrors");
+    const PlacedCamera camera = poseAt(scene).cameras.at(0);
+    for (const auto& [glossy, frames, samples] :
+         {std::tuple{Glossy::field, 3, 1}, {Glossy::field, 3, 2}, {Glossy::first, 3, 1}, {Glossy::first, 0, 1}}) {
+        const PictureDesc desc{
+            .camera = camera, .width = 91, .height = 51, .samplesPerAxis = samples, .glossy = glossy};
+        const Taken taken = take(scene, {.counts = {5, 5, 5}}, frames, desc);
+        for (const auto& layer : {&Picture::color, &Picture::indirect, &Picture::glossy}) {
+            const LayerDifference d = compareLayer(taken.own.*layer, taken.reference.*layer);
+            EXPECT_LT(d.mean, 2e-4) << samples << ' ' << frames << ": maximum " << d.worst;
+            EXPECT_LT(d.share, 0.002) << samples << ' ' << frames << ": maximum " << d.worst;
+            RecordProperty(
+                "glossyMean" + std::to_string(samples) + std::to_string(int(glossy)) + std::to_string(frames),
+                std::to_string(d.mean) + " " + std::to_string(d.share));
+        }
+    }
+}
+
 TEST_P(BackendPicture, colorIsDirectPlusIndirectOnSurfacesAndSkyElsewhere) {
     const Picture p = take(2, {.camera = richCamera(), .width = 64, .height = 48, .samplesPerAxis = 1}).own;
     for (std::size_t i = 0; i < p.color.pixels.size(); ++i) {

@@ -211,6 +211,19 @@ TEST(Render, LayersAddUp) {
     }
 }
 
+TEST(Render, GlossyLightIsPartOfTheIndirectAndTimed) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> mirrors{"--glossy", "field", "--frames", "3", "--probes", "4x4x4"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), mirrors.begin(), mirrors.end());
+        return mean(render(more, "builtin:mirrors"));
+    };
+    const double glossy = with({"--aov", "glossy", "--stats", folder.file("s.json")});
+    EXPECT_GT(glossy, 0.01);
+    EXPECT_LT(glossy, with({"--aov", "indirect"}));
+    EXPECT_GT(nlohmann::json::parse(readText(folder.file("s.json")))["glossyMs"], 0);
+}
+
 TEST(Render, ThreadsDoNotChangeThePictureAndSeedsDo) {
     const auto pixels = [](std::vector<std::string> options) { return render(quick(std::move(options))).pixels; };
     const auto one = pixels({"--threads", "1"});

@@ -25,10 +25,10 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{"--frames", "-3"}, std::pair{"--spp", "0"}, std::pair{"--spp", "2.5"},
                     std::pair{"--time", "0"}, std::pair{"--time", "nan"}, std::pair{"--seed", "-1"},
                     std::pair{"--seed", "x"}, std::pair{"--threads", "-1"}, std::pair{"--threads", "1025"},
-                    std::pair{"--aov", "beauty"}, std::pair{"--exposure", "0"}, std::pair{"--exposure", "inf"},
-                    std::pair{"--exposure", "bright"}, std::pair{"--antialias", "9"}, std::pair{"--sun", "0,-1,0"},
-                    std::pair{"--sun", "0,0,0,5"}, std::pair{"--sun", "0,-1,0,-5"}, std::pair{"--sun", "0,-1,0,nan"},
-                    std::pair{"--sun", "0,-1,0,1e30"}, std::pair{"--point", "1,2,3"},
+                    std::pair{"--aov", "beauty"}, std::pair{"--glossy", "mirror"}, std::pair{"--exposure", "0"},
+                    std::pair{"--exposure", "inf"}, std::pair{"--exposure", "bright"}, std::pair{"--antialias", "9"},
+                    std::pair{"--sun", "0,-1,0"}, std::pair{"--sun", "0,0,0,5"}, std::pair{"--sun", "0,-1,0,-5"},
+                    std::pair{"--sun", "0,-1,0,nan"}, std::pair{"--sun", "0,-1,0,1e30"}, std::pair{"--point", "1,2,3"},
                     std::pair{"--point", "1,2,3,-1,0,0"}, std::pair{"--point", "1,2,3,a,0,0"},
                     std::pair{"--look-from", "1,2"}, std::pair{"--look-at", "1,2,"}, std::pair{"--fov", "0"},
                     std::pair{"--fov", "180"}, std::pair{"--volume", "0,0,0:1"}, std::pair{"--volume", "0,0,0:0:4x4x4"},
@@ -73,6 +73,19 @@ TEST(Usage, CascadesAndDebugViewsThatCannotBeAreRefused) {
     refused({"--budget", "10", "--frames", "2"}, "does not pay for one probe", 1);
 }
 
+TEST(Usage, ALayerOfGlossyLightTakesAPictureThatHasIt) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> command{"render", "builtin:mirrors", "-o", folder.file("a.png"), "--aov", "glossy"};
+    const auto refused = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), command.begin(), command.end());
+        expectRefused(options, "--glossy", 2);
+    };
+    refused({});
+    refused({"--glossy", "off"});
+    refused({"--glossy", "field", "--method", "reference"});
+    refused({"--glossy", "field", "--diffuse-only"});
+}
+
 TEST(Usage, MissingArgumentsAreNamed) {
     expectRefused({"render", "-o", "a.png"}, "SCENE", 2);
     expectRefused({"render", "builtin:cornell"}, "--output", 2);
@@ -107,11 +120,11 @@ TEST(Usage, MainHelpShowsAFirstCommand) {
 TEST(Usage, HelpOfRenderListsEveryOption) {
     const std::string help = runTool({"render", "--help"}).out;
     for (const char* option :
-         {"--output",        "--method",       "--size",      "--camera",      "--probes",   "--rays",     "--frames",
-          "--spp",           "--time",         "--seed",      "--threads",     "--aov",      "--exposure", "--sun",
-          "--point",         "--sky",          "--look-from", "--look-at",     "--fov",      "--volume",   "--stats",
-          "--time-of-scene", "--diffuse-only", "--wall",      "--albedo",      "--emission", "--backend",  "--device",
-          "--tracer",        "--shader-cache", "--tolerance", "--unpack-limit"})
+         {"--output",        "--method",       "--size",      "--camera",       "--probes",   "--rays",     "--frames",
+          "--spp",           "--time",         "--seed",      "--threads",      "--aov",      "--exposure", "--sun",
+          "--point",         "--sky",          "--look-from", "--look-at",      "--fov",      "--volume",   "--stats",
+          "--time-of-scene", "--diffuse-only", "--wall",      "--albedo",       "--emission", "--backend",  "--device",
+          "--tracer",        "--shader-cache", "--tolerance", "--unpack-limit", "--glossy"})
         EXPECT_THAT(help, HasSubstr(option));
 }
 

@@ -23,6 +23,19 @@ TEST(PixelLayers, areMeansOverSkyAndSurfaces) {
     EXPECT_EQ(means.depth, 6.0f);
 }
 
+TEST(PixelLayers, glossyLightIsPartOfTheIndirect) {
+    PixelLayers sums = emptyLayers();
+    addGlossySurface(sums, {1, 2, 4}, vec3(5), {2, 4, 8}, {1, 3, 5}, vec3(0.5f), {0, 1, 0}, 8.0f);
+    addSky(sums, vec3(2));
+    const PixelLayers means = meanLayers(sums, 2);
+    EXPECT_EQ(means.direct, vec3(0.5f, 1, 2));
+    EXPECT_EQ(means.indirect, vec3(1.5f, 3.5f, 6.5f));
+    EXPECT_EQ(means.glossy, vec3(0.5f, 1.5f, 2.5f));
+    EXPECT_EQ(means.color, vec3(3, 5.5f, 9.5f));
+    EXPECT_EQ(means.irradiance, vec3(2.5f));
+    EXPECT_EQ(means.depth, 4.0f);
+}
+
 TEST(PixelLayers, skyIsInTheColourAlone) {
     PixelLayers sums = emptyLayers();
     addSky(sums, {1, 2, 3});

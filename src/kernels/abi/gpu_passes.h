@@ -248,9 +248,13 @@ struct PicturePush {
     int firstPlane;
     int planes;        // of the frame
     uint sampleCount;  // of the frame
-    int flags;         // kPictureDiffuseOnly
+    int flags;         // kPictureDiffuseOnly ...
+    // ScreenSample[block], what glossy rays hit; GlossySample[block]; vec3[pixel], the light of the glossy lobes
+    uvec2 glossy;
 };
 KERNEL_CONST int kPictureDiffuseOnly = 1;
+KERNEL_CONST int kPictureGlossy = 2;        // passes of PictureDesc::glossy
+KERNEL_CONST int kPictureSecondGlossy = 4;  // Glossy::field
 
 // Linear values to 8-bit sRGB (tone_map.comp).
 struct ToneMapPush {
@@ -271,7 +275,7 @@ static_assert(offsetof(SceneConstants, tracer) == 140 && sizeof(SceneConstants) 
 static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(BlendPush) == 116 &&
               sizeof(EnterPush) == 40 && sizeof(PlacementsPush) == 28 && sizeof(PlacesPush) == 96 &&
               sizeof(TracePush) == 76);
-static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 104);
+static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 112);
 static_assert(sizeof(TasksPush) == 24 && sizeof(FilterPush) == 84 && sizeof(EventPush) == 56 &&
               sizeof(EventRegion) == 32 && sizeof(GpuProbeStep) == 84);
 static_assert(sizeof(ToneMapPush) == 36 && sizeof(GpuSurface) == 76);

@@ -14,13 +14,14 @@ struct PixelLayers {
     vec3 irradiance;
     vec3 albedo;
     vec3 normal;
+    vec3 glossy;
     float depth;
 };
 
 KERNEL_FN PixelLayers emptyLayers() {
     PixelLayers layers;
     layers.color = layers.direct = layers.indirect = vec3(0.0f);
-    layers.irradiance = layers.albedo = layers.normal = vec3(0.0f);
+    layers.irradiance = layers.albedo = layers.normal = layers.glossy = vec3(0.0f);
     layers.depth = 0.0f;
     return layers;
 }
@@ -40,6 +41,18 @@ KERNEL_FN void addSurface(INOUT(PixelLayers) sums, vec3 direct, vec3 irradiance,
     sums.depth += distance;
 }
 
+// The same with a glossy lobe, part of `indirect` radiance.
+KERNEL_FN void addGlossySurface(INOUT(PixelLayers) sums, vec3 direct, vec3 irradiance, vec3 diffuse, vec3 glossy,
+                                vec3 albedo, vec3 normal, float distance) {
+    sums.direct += direct;
+    sums.indirect += diffuse + glossy;
+    sums.glossy += glossy;
+    sums.irradiance += irradiance;
+    sums.albedo += albedo;
+    sums.normal += normal;
+    sums.depth += distance;
+}
+
 KERNEL_FN PixelLayers meanLayers(IN(PixelLayers) sums, int samples) {
     const float weight = 1.0f / float(samples);
     PixelLayers means;
@@ -49,6 +62,7 @@ KERNEL_FN PixelLayers meanLayers(IN(PixelLayers) sums, int samples) {
     means.irradiance = weight * sums.irradiance;
     means.albedo = weight * sums.albedo;
     means.normal = weight * sums.normal;
+    means.glossy = weight * sums.glossy;
     means.depth = weight * sums.depth;
     return means;
 }

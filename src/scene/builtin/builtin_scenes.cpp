@@ -31,6 +31,8 @@ constexpr std::array kEntries{
         {"door", "a sunlit room and a dark one, and between them a door that opens from second 1 to 3 (wallThickness)"},
         builtin::makeDoor},
     Entry{{"moving", "a closed room in which a lamp, a box and a camera move for four seconds"}, builtin::makeMoving},
+    Entry{{"mirrors", "a robot between two mirrors that face each other, and metal balls from polished to rough"},
+          builtin::makeMirrors},
     Entry{{"furnace", "a closed glowing box with a known answer everywhere (albedo, emission)"}, builtin::makeFurnace},
     Entry{{"sphere", "an integrating sphere around a point light, with a known answer (albedo, power, radius)"},
           builtin::makeSphere},

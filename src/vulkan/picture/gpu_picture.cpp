@@ -14,7 +14,7 @@ namespace {
 
 // Without neighbours: a band of rows, with all planes.
 constexpr std::size_t kSamplesPerBand = std::size_t(1) << 20;
-constexpr std::size_t kLayers = 7;
+constexpr std::size_t kLayers = 7;  // of every picture; then `glossy`
 
 template <class Wanted, class Given>
 const Wanted& onDevice(const Device& device, const Given& given, const char* what) {
@@ -48,6 +48,7 @@ public:
         m_push.width = desc.width;
         m_push.samplesPerAxis = desc.samplesPerAxis;
         m_push.flags = desc.diffuseOnly ? kernels::kPictureDiffuseOnly : 0;
+        if (hasGlossy(desc)) placeGlossy();
     }
 
     int bands() const { return (m_picture.desc.height + m_bandRows - 1) / m_bandRows; }
@@ -60,7 +61,7 @@ public:
         m_push.firstPlane = frame * m_push.planes;
         const std::size_t pixels = std::size_t(m_push.rows) * std::size_t(m_push.width);
         m_push.sampleCount = std::uint32_t(pixels) * std::uint32_t(m_push.planes);
-        const std::size_t bytes = kLayers * pixels * sizeof(glm::vec3);
+        const std::size_t bytes = layerCount() * pixels * sizeof(glm::vec3);
         if (frame == 0) m_exchange.begin(0, bytes);
         m_push.layers = packAddress(m_exchange.out());
         const bool last = frame + 1 == frames();
@@ -72,6 +73,17 @@ public:
     const PictureTimes& times() const noexcept { return m_times; }
 
 private:
+    void placeGlossy() {
+        const std::size_t blocks = glossyBlocks(m_push.width, m_bandRows);
+        const std::size_t bytes = blocks * (sizeof(ScreenSample) + sizeof(kernels::GlossySample)) +
+                                  std::size_t(m_bandRows) * std::size_t(m_push.width) * sizeof(glm::vec3);
+        m_glossy = Buffer(m_picture.device.impl(), "glossy samples", bytes, kAddressed);
+        m_push.glossy = packAddress(m_glossy.address());
+        m_push.flags |= kernels::kPictureGlossy;
+        if (m_picture.desc.glossy == Glossy::field) m_push.flags |= kernels::kPictureSecondGlossy;
+    }
+    std::size_t layerCount() const { return kLayers + (m_glossy ? 1 : 0); }
+
     void record(const Recorder& recorder) {
         m_profiler->recordReset(recorder.commands());
         if (m_picture.volume) m_picture.volume->recordSettings(recorder, m_picture.field->control().settings());
@@ -90,11 +102,11 @@ private:
     }
 
     void store(Picture& picture, std::size_t pixels) const {
-        HdrImage* layers[kLayers] = {&picture.color,  &picture.direct, &picture.indirect, &picture.irradiance,
-                                     &picture.albedo, &picture.normal, &picture.depth};
+        HdrImage* layers[] = {&picture.color,  &picture.direct, &picture.indirect, &picture.irradiance,
+                              &picture.albedo, &picture.normal, &picture.depth,    &picture.glossy};
         const auto results = m_exchange.results<glm::vec3>();
         const std::ptrdiff_t first = std::ptrdiff_t(m_push.firstRow) * m_push.width;
-        for (std::size_t layer = 0; layer < kLayers; ++layer)
+        for (std::size_t layer = 0; layer < layerCount(); ++layer)
             std::copy_n(results.begin() + std::ptrdiff_t(layer * pixels), pixels,
                         layers[layer]->pixels.begin() + first);
     }
@@ -104,7 +116,7 @@ private:
     Exchange m_exchange;
     std::optional<Profiler> m_profiler;
     int m_bandRows = 1;
-    Buffer m_samples;
+    Buffer m_samples, m_glossy;
     kernels::PicturePush m_push{};
     PictureTimes m_times;
 };
@@ -122,6 +134,7 @@ GpuLighting uploadedLighting(const Device& device, const Lighting& lighting) {
 RenderedPicture runPicture(const Context& context, const GpuPicture& picture, std::span<const GpuPass> passes,
                            std::size_t framePixels) {
     RenderedPicture rendered{emptyPicture(picture.desc.width, picture.desc.height), {}};
+    if (hasGlossy(picture.desc)) rendered.picture.glossy = HdrImage(picture.desc.width, picture.desc.height);
     PictureRunner runner(picture, passes, framePixels);
     Progress progress(context, "rendering", double(runner.bands()) * runner.frames());
     for (int band = 0; band < runner.bands(); ++band)
@@ -142,7 +155,7 @@ Result<RenderedPicture> renderPicture(const Context& context, const Device& devi
         const GpuLighting lights = uploadedLighting(device, lighting);
         FieldPasses* volume = field ? &onDevice<VulkanField>(device, backendOf(*field), "field").passes() : nullptr;
         RenderedPicture rendered = runPicture(context, {device, gpuTracer.scene(), lights, field, volume, desc},
-                                              gpuPasses({gpuTracer.scene(), volume}));
+                                              gpuPasses({gpuTracer.scene(), volume}, desc));
         rendered.times.total =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return rendered;

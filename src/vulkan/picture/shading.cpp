@@ -8,7 +8,17 @@ void recordPass(const Recorder& recorder, const SceneObjects& objects, const Gpu
                 const kernels::PicturePush& push, Profiler* profiler) {
     if (!pass.shader) return;
     const PassScope scope(recorder, objects.scene.impl().device.impl(), profiler, pass.name);
-    recorder.dispatchOver(*pass.shader, pass.perPixel ? std::uint64_t(push.width) * push.rows : push.sampleCount);
+    std::uint64_t threads = push.sampleCount;
+    if (pass.perPixel) threads = std::uint64_t(push.width) * push.rows;
+    if (pass.perBlock || pass.onHits) threads = glossyBlocks(push.width, push.rows);
+    if (pass.onHits) {
+        kernels::PicturePush hits = push;
+        hits.samples = push.glossy;
+        hits.sampleCount = std::uint32_t(threads);
+        recorder.push(hits);
+    }
+    recorder.dispatchOver(*pass.shader, threads);
+    if (pass.onHits) recorder.push(push);
     recorder.computeToCompute();
 }
 
@@ -26,15 +36,46 @@ void bindPasses(const Recorder& recorder, const SceneObjects& objects, const ker
 
 GpuPass gpuPass(const PassInfo& info, const SceneObjects& objects) {
     GpuPass pass{info.name, {}, info.time, info.neighbours};
+    const GpuScene::Impl& scene = objects.scene.impl();
     switch (info.pass) {
         case PicturePass::primary:
-            pass.shader = objects.scene.impl().shader("picture_primary");
+            pass.shader = scene.shader("picture_primary");
             break;
         case PicturePass::direct:
-            pass.shader = objects.scene.impl().shader("picture_direct");
+            pass.shader = scene.shader("picture_direct");
             break;
         case PicturePass::query:
             if (objects.volume) pass.shader = "picture_query";
+            break;
+        case PicturePass::glossyTrace:
+            pass.shader = scene.shader("picture_glossy_trace");
+            pass.perBlock = true;
+            break;
+        case PicturePass::glossyDirect:
+            pass.shader = scene.shader("picture_direct");
+            pass.onHits = true;
+            break;
+        case PicturePass::glossyQuery:
+            if (objects.volume) pass.shader = "picture_query";
+            pass.onHits = true;
+            break;
+        case PicturePass::glossyField:
+            if (objects.volume) pass.shader = "picture_glossy_field";
+            break;
+        case PicturePass::glossyLight:
+            pass.shader = "picture_glossy_light";
+            pass.perBlock = true;
+            break;
+        case PicturePass::glossyBlur:
+            pass.shader = "picture_glossy_blur";
+            pass.perBlock = true;
+            break;
+        case PicturePass::glossySpread:
+            pass.shader = "picture_glossy_spread";
+            pass.perBlock = true;
+            break;
+        case PicturePass::glossyShade:
+            pass.shader = "picture_glossy_shade";
             break;
         case PicturePass::accumulate:
             pass.shader = "picture_accumulate";
@@ -44,10 +85,18 @@ GpuPass gpuPass(const PassInfo& info, const SceneObjects& objects) {
     return pass;
 }
 
-std::vector<GpuPass> gpuPasses(const SceneObjects& objects) {
+std::vector<GpuPass> gpuPasses(const SceneObjects& objects, const PictureDesc& desc) {
     std::vector<GpuPass> passes;
-    for (const PassInfo& info : kPicturePasses) passes.push_back(gpuPass(info, objects));
+    for (const PassInfo& info : kPicturePasses)
+        if (!info.glossy || hasGlossy(desc)) passes.push_back(gpuPass(info, objects));
     return passes;
+}
+
+// As picture_glossy.glsl has it.
+static_assert(sizeof(ScreenSample) == 100 && sizeof(kernels::GlossySample) == 36);
+
+std::uint32_t glossyBlocks(int width, int rows) {
+    return std::uint32_t(kernels::glossyBlocks(width)) * std::uint32_t(kernels::glossyBlocks(rows));
 }
 
 Result<void> recordShading(VkCommandBuffer commands, const GpuScene& scene, const GpuLighting& lighting,

@@ -6,6 +6,7 @@
 
 #include "geometry/picture_passes.h"
 #include "kernels/abi/gpu_passes.h"
+#include "kernels/screen/glossy_ray.h"
 #include "vulkan/field/gpu_field_impl.h"
 #include "vulkan/scene/gpu_lighting_impl.h"
 #include "vulkan/scene/gpu_scene_impl.h"
@@ -25,11 +26,16 @@ struct GpuPass {
     double PictureTimes::*time = nullptr;
     bool neighbours = false;
     bool perPixel = false;  ///< one thread a pixel
+    bool perBlock = false;  ///< one thread a block of 2 x 2 pixels
+    bool onHits = false;    ///< its samples are what glossy rays hit, one a block
 };
 
 GpuPass gpuPass(const PassInfo& info, const SceneObjects& objects);
-/// kPicturePasses on the GPU.
-std::vector<GpuPass> gpuPasses(const SceneObjects& objects);
+/// kPicturePasses on the GPU, those that the picture has.
+std::vector<GpuPass> gpuPasses(const SceneObjects& objects, const PictureDesc& desc = {});
+
+/// Blocks of 2 x 2 pixels of a frame.
+std::uint32_t glossyBlocks(int width, int rows);
 
 /// Compiles the passes, so that either all are recorded or none. Throws.
 void preparePasses(const SceneObjects& objects, std::span<const GpuPass> passes);

@@ -1,5 +1,6 @@
-// Samples to the layers of probegi::Picture, which lie one after the other, in its order.
-#include "picture.glsl"
+// Samples to the layers of probegi::Picture, which lie one after the other, in its order: `glossy` comes last, if at
+// all.
+#include "picture_glossy.glsl"
 
 #include "kernels/screen/pixel_layers.h"
 
@@ -17,6 +18,8 @@ PixelLayers load(uint pixel, uint pixels) {
     sums.albedo = layers.at[4 * pixels + pixel];
     sums.normal = layers.at[5 * pixels + pixel];
     sums.depth = layers.at[6 * pixels + pixel].x;
+    sums.glossy = vec3(0.0);
+    if ((push.flags & kPictureGlossy) != 0) sums.glossy = layers.at[7 * pixels + pixel];
     return sums;
 }
 
@@ -29,6 +32,7 @@ void store(PixelLayers sums, uint pixel, uint pixels) {
     layers.at[4 * pixels + pixel] = sums.albedo;
     layers.at[5 * pixels + pixel] = sums.normal;
     layers.at[6 * pixels + pixel] = vec3(sums.depth);
+    if ((push.flags & kPictureGlossy) != 0) layers.at[7 * pixels + pixel] = sums.glossy;
 }
 
 void main() {
@@ -42,6 +46,10 @@ void main() {
         const ScreenSample s = Samples(push.samples).at[i];
         if (s.kind == kSampleSky)
             addSky(sums, s.direct);
+        else if ((push.flags & kPictureGlossy) != 0)
+            addGlossySurface(sums, s.direct, s.irradiance,
+                             diffuseRadiance(materialOf(s), -dot(s.viewDirection, s.shadingNormal), s.irradiance),
+                             glossyLobes(push).at[i], s.albedo, s.shadingNormal, s.distance);
         else
             addSurface(sums, s.direct, s.irradiance, s.albedo, s.shadingNormal, s.distance);
     }
