@@ -60,7 +60,7 @@ TEST(AccuracyTables, bothWaysOfRunning) {
     measured.name = "a room";
     tool::RenderedScene& scene = measured.scene;
     scene.truth.probes.resize(7);
-    scene.ddgiField.run = {std::vector<UpdateTimes>(9), ConvergeResult{9, false, 0.031f}};
+    scene.ddgiField.run = {std::vector<UpdateTimes>(9), {}, ConvergeResult{9, false, 0.031f}};
     scene.realtime.emplace();
     scene.realtime->field.run.updates.resize(300);
     scene.realtime->field.ratio = {0.8, 0.9, 1.1};
