@@ -24,8 +24,8 @@ struct Variant {
 constexpr Variant kVariants[] = {
     {"lattice", false, false}, {"states", false, true}, {"relocation", true, false}, {"both", true, true}};
 
-/// Each field's time for an update over the first one's: fields take turns, so that whatever else the machine does meets
-/// all of them; median over the rounds.
+/// Each field's time for an update over the first one's: fields take turns, so that whatever else the machine does
+/// meets all of them; median over the rounds.
 Result<std::vector<double>> timeUpdates(std::span<Field> fields, const Tracer& tracer, const Lighting& lighting) {
     std::vector<std::vector<double>> ratios(fields.size());
     for (int round = 0; round < kTimedRounds; ++round) {
