@@ -55,6 +55,11 @@ bool isUnit(glm::vec3 v) {
     return std::abs(glm::dot(v, v) - 1.0f) <= 1e-3f;
 }
 
+std::size_t raysOfProbe(const FieldDesc& desc) {
+    const int fixed = desc.rules == FieldRules::paper ? 0 : desc.fixedRays;
+    return std::size_t(desc.raysPerProbe + fixed + emitterLooks(desc));
+}
+
 }  // namespace
 
 // A candidate's claims.
@@ -70,10 +75,7 @@ struct UpdateSchedule::Rank {
 };
 
 UpdateSchedule::UpdateSchedule(const FieldDesc& desc)
-    : m_raysPerProbe(std::size_t(desc.raysPerProbe) +
-                     std::size_t(desc.rules == FieldRules::paper ? 0 : desc.fixedRays) +
-                     std::size_t(emitterLooks(desc))),
-      m_probes(std::size_t(probeCount(desc))) {}
+    : m_raysPerProbe(raysOfProbe(desc)), m_probes(std::size_t(probeCount(desc))) {}
 
 void UpdateSchedule::setBudget(const UpdateBudget& budget) {
     if (!budget.limits()) m_cost = {};
@@ -241,7 +243,7 @@ std::span<const kernels::EventLimit> UpdateSchedule::limits(std::span<const Prob
 
 Result<void> validateBudget(const FieldDesc& desc, const UpdateBudget& budget) {
     const auto wrong = [](auto&&... words) { return fail(ErrorCode::invalidArgument, sentence(words...)); };
-    const std::int64_t each = std::int64_t(UpdateSchedule(desc).raysPerProbe());
+    const std::int64_t each = std::int64_t(raysOfProbe(desc));
     if (budget.rays < 0 || (budget.rays > 0 && budget.rays < each))
         return wrong("the budget of ", budget.rays, " rays does not pay for one probe; it must be 0 (no limit) or at ",
                      "least ", each);
