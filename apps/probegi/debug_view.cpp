@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
 #include <new>
 #include <numbers>
 #include <vector>
@@ -19,24 +21,46 @@ namespace {
 
 constexpr float kGrey = 0.45f;
 
-// Hues that stay apart however many volumes there are.
-glm::vec3 colourOf(std::size_t volume) {
+// Hues that stay apart however many there are.
+glm::vec3 colourOf(std::size_t number) {
     constexpr float kStrength = 0.85f, kBrightness = 0.95f;
-    const float hue = float(volume) * (1.0f / std::numbers::phi_v<float>);
+    const float hue = float(number % 4096) * (1.0f / std::numbers::phi_v<float>);
     const glm::vec3 wheel = glm::abs(glm::fract(hue + glm::vec3(0.0f, 2.0f / 3.0f, 1.0f / 3.0f)) * 6.0f - 3.0f) - 1.0f;
     return kBrightness * glm::mix(glm::vec3(1.0f), glm::clamp(wheel, 0.0f, 1.0f), kStrength);
 }
 
-glm::vec3 volumesAt(const Field& field, glm::vec3 point) {
+glm::vec3 volumesAt(const Field& field, const ShownPoint& point) {
     glm::vec3 colour(0.0f);
-    const auto shares = field.control().volumeShares(point);
+    const auto shares = field.control().volumeShares(point.position);
     for (std::size_t volume = 0; shares && volume < shares->size(); ++volume)
         colour += (*shares)[volume] * colourOf(volume);
     return colour;
 }
 
-glm::vec3 coverageAt(const Field& field, glm::vec3 point) {
-    return glm::mix(glm::vec3(0.85f, 0.1f, 0.05f), glm::vec3(0.2f, 0.75f, 0.3f), field.control().coverage(point));
+glm::vec3 coverageAt(const Field& field, const ShownPoint& point) {
+    return glm::mix(glm::vec3(0.85f, 0.1f, 0.05f), glm::vec3(0.2f, 0.75f, 0.3f),
+                    field.control().coverage(point.position));
+}
+
+// Of probes that shine in colours: those of the probes that answer, by their weights.
+glm::vec3 paintAt(const Field& field, const ShownPoint& point) {
+    const glm::vec3 e =
+        field.irradiance({.position = point.position, .normal = point.normal, .toViewer = point.toViewer});
+    return glm::clamp(e * std::numbers::inv_pi_v<float>, 0.0f, 1.0f);
+}
+
+// Lets each probe shine in a colour of its own, in all directions. Returns what the probes stored.
+Result<FieldSnapshot> paintProbes(Field& field) {
+    const auto stored = field.read();
+    if (!stored) return stored.error();
+    FieldSnapshot painted = *stored;
+    const std::size_t texels = painted.irradiance.size() / (3 * std::size_t(painted.slots.count));
+    for (std::size_t i = 0; i < painted.irradiance.size(); ++i) {
+        const float channel = colourOf(i / (3 * texels))[int(i % 3)];
+        painted.irradiance[i] = glm::packHalf1x16(std::pow(channel, 0.2f));  // (E / pi)^(1/5)
+    }
+    if (auto written = field.write(painted); !written) return written.error();
+    return *stored;
 }
 
 glm::vec3 stateColour(const ShownProbe& shown) {
@@ -118,11 +142,37 @@ Result<void> drawRows(const DebugView& view, const Field& field, const Tracer& t
     if (auto found = tracer.surfaces(rays, hits, surfaces); !found) return found;
     for (std::size_t i = 0; i < rays.size(); ++i)
         if (hits[i].valid()) {
-            const glm::vec3 colour = view.colour ? view.colour(field, surfaces[i].position) : glm::vec3(kGrey);
+            const ShownPoint point{surfaces[i].position, surfaces[i].shadingNormal, -rays[i].direction};
+            const glm::vec3 colour = view.colour ? view.colour(field, point) : glm::vec3(kGrey);
             pixels[i] = colour * shadeOf(surfaces[i], rays[i]);
             depth[i] = glm::vec3(hits[i].distance);
         }
     return {};
+}
+
+Result<HdrImage> draw(const DebugView& view, const Field& field, const Tracer& tracer, const PlacedCamera& camera,
+                      int width, int height) {
+    constexpr std::size_t kBatch = 65536;  // bounds the memory for surfaces
+    HdrImage image;
+    image.width = width;
+    image.height = height;
+    image.pixels.assign(std::size_t(width) * std::size_t(height), glm::vec3(0.0f));
+    HdrImage depth = image;
+    const std::vector<Ray> rays = primaryRays(camera, width, height);
+    for (std::size_t begin = 0; begin < rays.size(); begin += kBatch) {
+        const std::size_t count = std::min(kBatch, rays.size() - begin);
+        if (auto drawn =
+                drawRows(view, field, tracer, std::span(rays).subspan(begin, count),
+                         std::span(image.pixels).subspan(begin, count), std::span(depth.pixels).subspan(begin, count));
+            !drawn)
+            return drawn.error();
+    }
+    if (view.ball) {
+        const auto balls = probeBalls(view, field);
+        if (!balls) return balls.error();
+        drawBalls(image, std::move(depth), camera, *balls);
+    }
+    return linearFromDisplay(image);
 }
 
 }  // namespace
@@ -132,6 +182,11 @@ std::span<const DebugView> debugViews() {
         {"volumes", "which volume answers, each in a colour of its own, blended by their shares", false, volumesAt,
          nullptr},
         {"coverage", "green where the volumes cover a point, red where they do not", false, coverageAt, nullptr},
+        {"weights",
+         "each probe in a colour of its own; a surface has those of the probes that light it, by their weights: an "
+         "edge "
+         "is where a probe stops being seen",
+         true, paintAt, nullptr, true},
         {"states",
          "the probes: green those that surfaces use (vigilant), orange awake for what moves, yellow newly so, blue "
          "asleep, red off; see --probe-states",
@@ -156,29 +211,14 @@ const DebugView* findDebugView(const std::string& name) {
     return found == views.end() ? nullptr : &*found;
 }
 
-Result<HdrImage> drawDebugView(const DebugView& view, const Field& field, const Tracer& tracer,
-                               const PlacedCamera& camera, int width, int height) try {
-    constexpr std::size_t kBatch = 65536;  // bounds the memory for surfaces
-    HdrImage image;
-    image.width = width;
-    image.height = height;
-    image.pixels.assign(std::size_t(width) * std::size_t(height), glm::vec3(0.0f));
-    HdrImage depth = image;
-    const std::vector<Ray> rays = primaryRays(camera, width, height);
-    for (std::size_t begin = 0; begin < rays.size(); begin += kBatch) {
-        const std::size_t count = std::min(kBatch, rays.size() - begin);
-        if (auto drawn =
-                drawRows(view, field, tracer, std::span(rays).subspan(begin, count),
-                         std::span(image.pixels).subspan(begin, count), std::span(depth.pixels).subspan(begin, count));
-            !drawn)
-            return drawn.error();
-    }
-    if (view.ball) {
-        const auto balls = probeBalls(view, field);
-        if (!balls) return balls.error();
-        drawBalls(image, std::move(depth), camera, *balls);
-    }
-    return linearFromDisplay(image);
+Result<HdrImage> drawDebugView(const DebugView& view, Field& field, const Tracer& tracer, const PlacedCamera& camera,
+                               int width, int height) try {
+    if (!view.paints) return draw(view, field, tracer, camera, width, height);
+    const auto stored = paintProbes(field);
+    if (!stored) return stored.error();
+    auto image = draw(view, field, tracer, camera, width, height);
+    if (auto written = field.write(*stored); !written) return written.error();
+    return image;
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, "no memory for the debug picture; choose a smaller --size");
 }

@@ -17,14 +17,21 @@ struct ShownProbe {
     int age = 0;  ///< FieldControl::updateAge
 };
 
+/// A place on a surface that a view colours.
+struct ShownPoint {
+    glm::vec3 position;  ///< metres, in the world
+    glm::vec3 normal, toViewer;
+};
+
 /// A picture of what a field does at the surfaces that a camera sees, or of its probes as balls: --debug NAME. A new
 /// one is a row of debugViews(). Colours are display values, 0..1.
 struct DebugView {
     const char* name;
     const char* help;
-    bool needsLight;                                     ///< the probes must have been updated
-    glm::vec3 (*colour)(const Field&, glm::vec3 point);  ///< of a surface; null: grey
-    glm::vec3 (*ball)(const ShownProbe&);                ///< of a probe; null: probes are not shown
+    bool needsLight;                                       ///< the probes must have been updated
+    glm::vec3 (*colour)(const Field&, const ShownPoint&);  ///< of a surface; null: grey
+    glm::vec3 (*ball)(const ShownProbe&);                  ///< of a probe; null: probes are not shown
+    bool paints = false;  ///< meanwhile each probe shines in a colour of its own instead of the light that it knows
 };
 
 std::span<const DebugView> debugViews();
@@ -33,8 +40,8 @@ std::span<const DebugView> debugViews();
 const DebugView* findDebugView(const std::string& name);
 
 /// Draws a view, with some shading so that shapes can be told; linear values, of which a PNG shows `colour`. Sky is
-/// black. Errors: outOfMemory, and those of the tracer.
-Result<HdrImage> drawDebugView(const DebugView& view, const Field& field, const Tracer& tracer,
-                               const PlacedCamera& camera, int width, int height);
+/// black. The field is afterwards as it was. Errors: outOfMemory, and those of the tracer and of Field::write.
+Result<HdrImage> drawDebugView(const DebugView& view, Field& field, const Tracer& tracer, const PlacedCamera& camera,
+                               int width, int height);
 
 }  // namespace probegi::tool

@@ -81,7 +81,7 @@ Result<Picture> drawReference(const Context& context, const Backend& backend, co
 
 Result<void> renderDebugView(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
                              const RenderOptions& options, RenderStats& stats) {
-    const auto field = makeField(backend, tracer, setup, options, stats);
+    auto field = makeField(backend, tracer, setup, options, stats);
     if (!field) return field.error();
     const PictureSize size = *parseSize(options.size);
     const auto image =

@@ -117,6 +117,8 @@ TEST(Render, DebugViewsShowVolumesAndWhatTheyCover) {
     const HdrImage one = render({"--debug", "volumes", "--probes", "4x4x4"});
     EXPECT_LE(hues(one), 3u) << "one volume has one colour";
     EXPECT_GE(hues(renderWarned(cascades({"--debug", "volumes"}))), hues(one) + 2) << "two, and what is between them";
+    const HdrImage weights = render({"--debug", "weights", "--probes", "4x4x4", "--frames", "2"});
+    EXPECT_GE(hues(weights), 20u) << "of 64 probes, and mixtures of them";
     const HdrImage covered = render({"--debug", "coverage", "--probes", "4x4x4"}),
                    away = renderWarned({"--debug", "coverage", "--volume", "50,0,0:1:3x3x3"});
     for (std::size_t i = 0; i < covered.pixels.size(); ++i) {
