@@ -61,7 +61,7 @@ void addVolumeOptions(CLI::App& command, VolumeOptions& options, const std::vect
     command
         .add_option("--outside", options.outside,
                     "light where no probes are: that of the nearest ones, or this radiance in W/sr/m2 from all sides, "
-                    "to which it fades from half a cell beyond the outermost")
+                    "to which it fades from half a cell beyond the outermost, with --cascades within the coarsest")
         ->type_name("nearest|R,G,B")
         ->check(CLI::Validator(checkOutside, ""))
         ->capture_default_str()
