@@ -92,7 +92,7 @@ void FieldControl::Impl::turnRays() noexcept {
 std::size_t FieldControl::Impl::bytes() const noexcept {
     return sizeof(*this) + (directions.capacity() + fixedDirections.capacity()) * sizeof(directions[0]) +
            tasks.capacity() * sizeof(tasks[0]) + chosen.capacity() * sizeof(chosen[0]) +
-           byDensity.capacity() * sizeof(byDensity[0]) + states.bytes();
+           byDensity.capacity() * sizeof(byDensity[0]) + states.bytes() + schedule.bytes();
 }
 
 FieldControl::Impl::TaskList FieldControl::Impl::listed(std::span<const kernels::Volume> where, const ProbeStates& of,
