@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "probegi/export.h"
+#include "probegi/image.h"
+#include "probegi/result.h"
+#include "probegi/scene.h"
+
+namespace probegi {
+
+/// Shapes with an exact Euclidean signed distance (SDFDDGI, section 3.1), each in a frame of its own around the origin.
+enum class SdfShape : std::uint8_t {
+    box,
+    roundedBox,  ///< a box whose edges and corners are rounded
+    sphere,
+    capsule,   ///< all within a radius of a segment along the frame's Y axis
+    cylinder,  ///< solid, with flat ends, along the frame's Y axis
+    plane,     ///< all below the frame's plane y = 0: solid ground
+};
+
+/// A solid that stands for part of a scene. Its distance is negative inside.
+struct SdfPrimitive {
+    std::string name{};
+    SdfShape shape = SdfShape::box;
+    glm::vec3 centre{0.0f};                      ///< metres
+    glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};  ///< of the shape's frame, unit
+    /// Metres, > 0. Boxes: half the extents, rounding included. Sphere: x is the radius. Capsule: x is the radius, y
+    /// half the length of the segment (0 allowed). Cylinder: x is the radius, y half the height. Plane: unused. What a
+    /// shape does not use may be anything.
+    glm::vec3 halfSize{0.5f};
+    float rounding = 0.0f;     ///< roundedBox: radius of its edges, metres, 0 to the smallest half size
+    glm::vec3 albedo{0.5f};    ///< linear RGB, 0..1
+    glm::vec3 emission{0.0f};  ///< radiance of its surface, W sr^-1 m^-2, 0 to 1e20
+    /// Name of the node on which it rides: centre and rotation are then in that node's frame, which may turn, move and
+    /// be scaled alike along all axes. Empty: it stands in the world.
+    std::string node{};
+    bool pinned = false;  ///< fitting keeps it as it is
+};
+
+/// A scene of primitives: the union of solids.
+struct SdfScene {
+    std::vector<SdfPrimitive> primitives{};  ///< at most kMaxSdfPrimitives
+};
+
+constexpr int kMaxSdfPrimitives = 4096;
+
+/// Checks every value. Errors: malformed, naming the primitive and the fault.
+PROBEGI_API Result<void> validate(const SdfScene& sdf);
+
+/// Signed distance to the union, metres: exact outside, and inside never more than the distance to its surface.
+/// Without primitives 1e30. The scene must be valid, and no primitive may ride on a node.
+PROBEGI_API float signedDistance(const SdfScene& sdf, glm::vec3 point);
+
+/// Reads and writes primitives as JSON (docs/sdf.md describes the format). Errors: fileNotFound, fileUnreadable,
+/// malformed (with the primitive's number or name), outOfMemory; writeFailed.
+PROBEGI_API Result<SdfScene> loadSdf(const std::filesystem::path& path, const ReadLimits& limits = {});
+PROBEGI_API Result<void> saveSdf(const std::filesystem::path& path, const SdfScene& sdf);
+
+}  // namespace probegi
