@@ -26,6 +26,7 @@ declare -A below=(
     [io]="scene core kernels"
     [geometry]="scene core kernels"
     [bvh]="scene core kernels"
+    [sdf]="scene core kernels"
     [field]="geometry scene core kernels"
     [cpu]="field geometry scene core kernels"
     [vulkan]="bvh field geometry scene core kernels"

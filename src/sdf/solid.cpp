@@ -1,0 +1,33 @@
+#include "sdf/solid.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace probegi {
+
+static_assert(int(SdfShape::box) == int(kernels::kSdfBox) &&
+              int(SdfShape::roundedBox) == int(kernels::kSdfRoundedBox) &&
+              int(SdfShape::sphere) == int(kernels::kSdfSphere) &&
+              int(SdfShape::capsule) == int(kernels::kSdfCapsule) &&
+              int(SdfShape::cylinder) == int(kernels::kSdfCylinder) && int(SdfShape::plane) == int(kernels::kSdfPlane));
+
+kernels::SdfSolid makeSolid(const SdfPrimitive& primitive, const glm::mat4& frame) {
+    const float scale = glm::length(glm::vec3(frame[0]));
+    glm::quat rotation = primitive.rotation;
+    if (frame != glm::mat4(1.0f)) {
+        // A mirrored frame has the same solids as its mirror image along all axes, since shapes are symmetric.
+        const glm::mat3 axes = glm::mat3(frame) / (glm::determinant(glm::mat3(frame)) < 0 ? -scale : scale);
+        rotation = glm::quat_cast(axes) * rotation;
+    }
+    rotation = glm::normalize(rotation);
+    kernels::SdfSolid solid;
+    solid.centre = glm::vec3(frame * glm::vec4(primitive.centre, 1.0f));
+    solid.shape = kernels::uint(primitive.shape);
+    solid.rotation = {rotation.x, rotation.y, rotation.z, rotation.w};
+    solid.halfSize = primitive.halfSize * scale;
+    solid.rounding = primitive.shape == SdfShape::roundedBox ? primitive.rounding * scale : 0.0f;
+    return solid;
+}
+
+}  // namespace probegi
