@@ -16,9 +16,10 @@ kernels::SdfSolid makeSolid(const SdfPrimitive& primitive, const glm::mat4& fram
     const float scale = glm::length(glm::vec3(frame[0]));
     glm::quat rotation = primitive.rotation;
     if (frame != glm::mat4(1.0f)) {
-        // A mirrored frame has the same solids as its mirror image along all axes, since shapes are symmetric.
-        const glm::mat3 axes = glm::mat3(frame) / (glm::determinant(glm::mat3(frame)) < 0 ? -scale : scale);
-        rotation = glm::quat_cast(axes) * rotation;
+        glm::mat3 axes = glm::mat3(frame) / scale * glm::mat3_cast(rotation);
+        // Mirrored, as no rotation is; but all shapes are their own mirror images along x.
+        if (glm::determinant(axes) < 0) axes[0] = -axes[0];
+        rotation = glm::quat_cast(axes);
     }
     rotation = glm::normalize(rotation);
     kernels::SdfSolid solid;

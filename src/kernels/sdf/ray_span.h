@@ -163,7 +163,6 @@ KERNEL_FN SdfSpan sdfPlaneSpan(vec3 origin, vec3 direction) {
 KERNEL_FN SdfSpan sdfRaySpan(SdfSolid solid, vec3 rayOrigin, vec3 rayDirection) {
     const vec3 origin = sdfToLocal(solid, rayOrigin - solid.centre);
     const vec3 direction = sdfToLocal(solid, rayDirection);
-    if (solid.shape == kSdfSphere) return sdfSphereSpan(solid.halfSize.x, origin, direction);
     if (solid.shape == kSdfPlane) return sdfPlaneSpan(origin, direction);
     if (solid.shape <= kSdfRoundedBox && sdfRounding(solid) <= 0.0f) {
         return sdfBoxSpan(solid.halfSize, origin, sdfInverse(direction));
@@ -171,6 +170,7 @@ KERNEL_FN SdfSpan sdfRaySpan(SdfSolid solid, vec3 rayOrigin, vec3 rayDirection) 
     const float nearest = -dot(origin, direction);
     const vec3 close = origin + direction * nearest;
     SdfSpan span = sdfNoSpan();
+    if (solid.shape == kSdfSphere) span = sdfSphereSpan(solid.halfSize.x, close, direction);
     if (solid.shape == kSdfRoundedBox) span = sdfRoundedSpan(solid.halfSize, solid.rounding, close, direction);
     if (solid.shape == kSdfCapsule) span = sdfCapsuleSpan(solid.halfSize, close, direction);
     if (solid.shape == kSdfCylinder) span = sdfCylinderSpan(solid.halfSize, close, direction);

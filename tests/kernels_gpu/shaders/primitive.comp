@@ -1,0 +1,19 @@
+#include "lane.h"
+
+#include "some_solid.h"
+
+// Gradients jump at the planes between faces, which random points are not on in a turned frame; each is compared by the
+// point to which it leads.
+void evaluate(INOUT(Lane) lane) {
+    const SdfSolid solid = takeSolid(lane);
+    const vec3 point = takeVector(lane, -4.0f, 4.0f);
+    const float distance = sdfDistance(solid, point);
+    give(lane, distance, 1e-5f);
+    give(lane, sdfRounding(solid), 0.0f);
+    give(lane, sdfDistance(solid, point - sdfGradient(solid, point) * distance), 1e-5f);
+    give(lane, length(sdfSurfaceNormal(solid, point)), 1e-5f);
+    giveVec3(lane, sdfToLocal(solid, point), 1e-5f);
+    giveVec3(lane, sdfToWorld(solid, point), 1e-5f);
+    give(lane, sdfLocalDistance(solid, point), 1e-5f);
+    give(lane, dot(sdfSurfaceNormal(solid, point), sdfGradient(solid, point)) > 0.5f ? 1.0f : 0.0f, 0.0f);
+}
