@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "probegi/image.h"
 #include "probegi/result.h"
 #include "probegi/scene.h"
+#include "probegi/tracer.h"
 
 namespace probegi {
 
@@ -56,6 +58,18 @@ PROBEGI_API Result<void> validate(const SdfScene& sdf);
 /// Signed distance to the union, metres: exact outside, and inside never more than the distance to its surface.
 /// Without primitives 1e30. The scene must be valid, and no primitive may ride on a node.
 PROBEGI_API float signedDistance(const SdfScene& sdf, glm::vec3 point);
+
+/// Traces the surface of the union of solids on the CPU, by exact intersection. A ray that starts outside hits the
+/// first solid that it enters; one that starts inside hits the union's surface from within, which is solid wall
+/// (Surface::backface), at the point where it leaves the last of the solids that overlap or touch on its way; it is
+/// occluded, too, if it enters another solid before. Hit::primitive counts SdfScene::primitives, Hit::geometry is 1 for
+/// hits from within, Surface::material is -1, the roughness is 1. bounds() are without planes. emitters() is null.
+/// setPose() moves the primitives that ride on
+/// nodes of `scene`, which is read during the call only.
+/// Errors: malformed (validate()), invalidArgument (a primitive rides on a node that the scene lacks, that has no mesh
+/// or that is not scaled alike along all axes), outOfMemory.
+PROBEGI_API Result<std::unique_ptr<MovableTracer>> makeSdfTracer(const Context& context, const SdfScene& sdf,
+                                                                 const Scene& scene, const ScenePose& pose);
 
 /// Reads and writes primitives as JSON (docs/sdf.md describes the format). Errors: fileNotFound, fileUnreadable,
 /// malformed (with the primitive's number or name), outOfMemory; writeFailed.

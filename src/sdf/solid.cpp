@@ -31,4 +31,12 @@ kernels::SdfSolid makeSolid(const SdfPrimitive& primitive, const glm::mat4& fram
     return solid;
 }
 
+glm::vec3 halfExtents(const kernels::SdfSolid& solid) {
+    const glm::vec3 h = solid.halfSize;
+    if (solid.shape == kernels::kSdfSphere) return glm::vec3(h.x);
+    if (solid.shape == kernels::kSdfCapsule) return {h.x, h.y + h.x, h.x};
+    if (solid.shape == kernels::kSdfCylinder) return {h.x, h.y, h.x};
+    return solid.shape == kernels::kSdfPlane ? glm::vec3(kernels::kSdfFar) : h;
+}
+
 }  // namespace probegi

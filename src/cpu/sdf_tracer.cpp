@@ -1,0 +1,80 @@
+#include <cassert>
+#include <new>
+
+#include "core/float_mode.h"
+#include "cpu/sdf_lanes.h"
+#include "kernels/sdf/union_hit.h"
+#include "probegi/sdf.h"
+#include "sdf/placed_primitives.h"
+
+namespace probegi {
+
+namespace {
+
+class SdfTracer final : public MovableTracer {
+public:
+    explicit SdfTracer(PlacedPrimitives placed) : m_placed(std::move(placed)), m_lanes(m_placed.solids()) {}
+
+    Result<void> closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override {
+        assert(rays.size() == hits.size());
+        const FloatMode floatMode;
+        sdfClosestHits(m_lanes, rays, hits);
+        return {};
+    }
+
+    Result<void> occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override {
+        assert(rays.size() == blocked.size());
+        const FloatMode floatMode;
+        sdfOccluded(m_lanes, rays, blocked);
+        return {};
+    }
+
+    Result<void> surfaces(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Surface> out) const override {
+        assert(rays.size() == hits.size() && rays.size() == out.size());
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            if (hits[i].valid()) out[i] = surface(rays[i], hits[i]);
+        return {};
+    }
+
+    Result<void> setPose(const ScenePose& pose) override {
+        if (auto moved = m_placed.setPose(pose); !moved) return moved;
+        m_lanes = SdfLanes(m_placed.solids());
+        return {};
+    }
+
+    Bounds bounds() const override { return m_placed.bounds(); }
+
+private:
+    Surface surface(const Ray& ray, const Hit& hit) const {
+        const auto number = std::size_t(hit.primitive);
+        const SdfPrimitive& primitive = m_placed.primitives()[number];
+        const bool within = hit.geometry == kernels::kSdfFromWithin;
+        Surface s;
+        s.position = ray.origin + ray.direction * hit.distance;
+        const glm::vec3 normal = kernels::sdfSurfaceNormal(m_placed.solids()[number], s.position);
+        s.geometricNormal = within ? -normal : normal;
+        s.shadingNormal = kernels::bendTowards(s.geometricNormal, -ray.direction);
+        s.albedo = primitive.albedo;
+        if (!within) s.emission = primitive.emission;
+        s.back = s.backface = within;
+        return s;
+    }
+
+    PlacedPrimitives m_placed;
+    SdfLanes m_lanes;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<MovableTracer>> makeSdfTracer(const Context&, const SdfScene& sdf, const Scene& scene,
+                                                     const ScenePose& pose) {
+    try {
+        return PlacedPrimitives::create(sdf, scene, pose).transform([](PlacedPrimitives placed) {
+            return std::unique_ptr<MovableTracer>(std::make_unique<SdfTracer>(std::move(placed)));
+        });
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::outOfMemory, "not enough memory for the primitives' tracer; use fewer primitives");
+    }
+}
+
+}  // namespace probegi
