@@ -1,6 +1,10 @@
-#include "kernels/sdf/primitive.h"
+// Solids of all shapes. Included into the test's own namespace.
+#ifndef PROBEGI_TESTS_KERNELS_GPU_SHADERS_SOME_SOLID_H
+#define PROBEGI_TESTS_KERNELS_GPU_SHADERS_SOME_SOLID_H
 
-KERNELS_BEGIN
+#include "lane.h"
+
+#include "kernels/sdf/primitive.h"
 
 // Sizes of 0.25 to 1 m, anywhere within 2 m.
 KERNEL_FN SdfSolid takeSolid(INOUT(Lane) lane) {
@@ -16,4 +20,4 @@ KERNEL_FN SdfSolid takeSolid(INOUT(Lane) lane) {
     return solid;
 }
 
-KERNELS_END
+#endif
