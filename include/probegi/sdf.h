@@ -71,9 +71,11 @@ PROBEGI_API float signedDistance(const SdfScene& sdf, glm::vec3 point);
 PROBEGI_API Result<std::unique_ptr<MovableTracer>> makeSdfTracer(const Context& context, const SdfScene& sdf,
                                                                  const Scene& scene, const ScenePose& pose);
 
-/// Reads and writes primitives as JSON (docs/sdf.md describes the format). Errors: fileNotFound, fileUnreadable,
-/// malformed (with the primitive's number or name), outOfMemory; writeFailed.
+/// Reads primitives from JSON (docs/sdf.md describes the format). They have passed validate(). Errors: fileNotFound,
+/// fileUnreadable, malformed (with the primitive's number and name), unsupported (a later version of the format),
+/// outOfMemory.
 PROBEGI_API Result<SdfScene> loadSdf(const std::filesystem::path& path, const ReadLimits& limits = {});
+/// Writes them, as writeFile() does, one primitive a line. Errors: malformed (validate()), writeFailed.
 PROBEGI_API Result<void> saveSdf(const std::filesystem::path& path, const SdfScene& sdf);
 
 }  // namespace probegi

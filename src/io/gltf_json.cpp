@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "io/gltf_strict.h"
-#include "io/gltf_text.h"
+#include "io/json_text.h"
 
 namespace probegi::io {
 
@@ -129,7 +129,7 @@ bool isBinaryGltf(Bytes bytes) {
 }
 
 Bytes prepareGltf(Bytes bytes, Budget& budget, std::vector<std::uint8_t>& storage) {
-    json root = parseGltfText(jsonOf(bytes), budget);
+    json root = parseJsonText(jsonOf(bytes), budget);
     bool changed = checkStrictly(root);
     checkBuffers(root);
     checkImages(root);

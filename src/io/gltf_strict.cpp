@@ -43,7 +43,7 @@ void checkNumber(const std::string& path, const std::string& name, const json& n
 }
 
 /// Checks one element of a root array. Extensions have their own rules and are skipped. Recursion is safe: the text
-/// has passed parseGltfText().
+/// has passed parseJsonText().
 void checkNumbers(const std::string& path, const json& value) {
     if (value.is_array()) {
         for (const json& element : value) checkNumbers(path, element);

@@ -1,5 +1,6 @@
 #include "probegi/image.h"
 #include "probegi/io.h"
+#include "probegi/sdf.h"
 
 namespace probegi {
 
@@ -20,6 +21,12 @@ Result<HdrImage> readImage(const std::filesystem::path&, const ReadLimits&) {
     return withoutFiles();
 }
 Result<void> writeImage(const std::filesystem::path&, const HdrImage&, const ToneMap&) {
+    return withoutFiles();
+}
+Result<SdfScene> loadSdf(const std::filesystem::path&, const ReadLimits&) {
+    return withoutFiles();
+}
+Result<void> saveSdf(const std::filesystem::path&, const SdfScene&) {
     return withoutFiles();
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <unordered_map>
 
 #include "scene/checks.h"
 #include "sdf/solid.h"
@@ -70,30 +71,35 @@ Result<PlacedPrimitives> PlacedPrimitives::create(const SdfScene& sdf, const Sce
         if (primitive.node.empty()) continue;
         const int node = findNode(scene, primitive.node);
         if (node < 0) return refused(i, primitive, "which the scene does not have; correct the name or remove it");
-        const auto at = std::find_if(pose.instances.begin(), pose.instances.end(),
-                                     [&](const Instance& instance) { return instance.node == node; });
-        if (at == pose.instances.end()) {
+        if (scene.nodes[std::size_t(node)].mesh < 0) {
             return refused(i, primitive, "which has no mesh; name the node whose mesh it stands for");
         }
-        placed.m_riders.push_back({i, node, std::size_t(at - pose.instances.begin())});
+        placed.m_riders.push_back({i, node});
     }
     if (auto moved = placed.setPose(pose); !moved) return moved.error();
     return placed;
 }
 
 Result<void> PlacedPrimitives::setPose(const ScenePose& pose) {
+    std::unordered_map<int, const glm::mat4*> frames;
+    if (!m_riders.empty())
+        for (const Instance& instance : pose.instances) frames.emplace(instance.node, &instance.toWorld);
+    std::vector<kernels::SdfSolid> solids = m_solids;
     for (const Rider& rider : m_riders) {
-        if (rider.instance >= pose.instances.size() || pose.instances[rider.instance].node != rider.node) {
-            return fail(ErrorCode::invalidArgument, "the pose is of another scene than the tracer's");
+        const SdfPrimitive& primitive = m_primitives[rider.primitive];
+        const auto frame = frames.find(rider.node);
+        if (frame == frames.end()) {
+            return refused(rider.primitive, primitive,
+                           "which the pose does not have; give the pose of the tracer's scene, with all that rides");
         }
-        if (scaledAlike(pose.instances[rider.instance].toWorld)) continue;
-        return refused(rider.primitive, m_primitives[rider.primitive],
-                       "which is not scaled alike along all axes; give it a node that is, or let it stand in the "
-                       "world");
+        if (!scaledAlike(*frame->second)) {
+            return refused(rider.primitive, primitive,
+                           "which is not scaled alike along all axes; give it a node that is, or let it stand in the "
+                           "world");
+        }
+        solids[rider.primitive] = makeSolid(primitive, *frame->second);
     }
-    for (const Rider& rider : m_riders) {
-        m_solids[rider.primitive] = makeSolid(m_primitives[rider.primitive], pose.instances[rider.instance].toWorld);
-    }
+    m_solids = std::move(solids);
     return {};
 }
 

@@ -27,7 +27,6 @@ private:
     struct Rider {
         std::size_t primitive;
         int node;
-        std::size_t instance;  // of the pose
     };
 
     std::vector<SdfPrimitive> m_primitives;

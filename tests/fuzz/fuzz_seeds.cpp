@@ -1,4 +1,5 @@
-// fuzz_seeds FOLDER: writes small valid files to FOLDER/gltf and FOLDER/image for the fuzzers to start from.
+// fuzz_seeds FOLDER: writes small valid files to FOLDER/gltf, FOLDER/image and FOLDER/sdf for the fuzzers to start
+// from.
 #include <filesystem>
 #include <fstream>
 
@@ -45,6 +46,18 @@ void writeImages(const fs::path& folder) {
     write(folder / "picture.jpg", jpeg);
 }
 
+Bytes primitives() {
+    const std::string text =
+        "{\"sdf\": 1, \"primitives\": [{\"name\": \"wall\", \"shape\": \"box\", \"centre\": [0, 1, 2.5], "
+        "\"rotation\": [0, 0, 0, 1], \"halfSize\": [1, 2, 3], \"albedo\": [0.5, 0.5, 0.5], \"pinned\": true}, "
+        "{\"shape\": \"roundedBox\", \"centre\": [0, 0, 0], \"halfSize\": [1, 1, 1], \"rounding\": 0.1}, "
+        "{\"shape\": \"capsule\", \"centre\": [0, 0, 0], \"radius\": 1, \"halfLength\": 2, \"node\": \"door\"}, "
+        "{\"shape\": \"cylinder\", \"centre\": [0, 0, 0], \"radius\": 1, \"halfHeight\": 2, \"emission\": [1, 2, 3]}, "
+        "{\"shape\": \"sphere\", \"centre\": [0, 0, 0], \"radius\": 1}, {\"shape\": \"plane\", \"centre\": [0, 0, "
+        "0]}]}";
+    return {text.begin(), text.end()};
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -55,6 +68,7 @@ int main(int count, char** arguments) {
     write(folder / "gltf" / "rich.gltf", richScene().text());
     write(folder / "gltf" / "draco.glb", dracoScene().glb());
     write(folder / "gltf" / "settings.ini", settings());
+    write(folder / "sdf" / "all.json", primitives());
     writeImages(folder / "image");
     return 0;
 }

@@ -1,4 +1,4 @@
-#include "io/gltf_text.h"
+#include "io/json_text.h"
 
 namespace probegi::io {
 
@@ -9,7 +9,7 @@ using nlohmann::json;
 /// Parses the text without building anything.
 class Weigher final : public nlohmann::json_sax<json> {
 public:
-    explicit Weigher(Budget& budget) : m_budget(budget) {}
+    Weigher(Budget& budget, std::string_view kind) : m_budget(budget), m_kind(kind) {}
 
     bool isObject() const { return m_isObject; }
     bool tooDeep() const { return m_tooDeep; }
@@ -33,7 +33,7 @@ public:
         constexpr int kNumberTooLarge = 406;
         if (fault.id == kNumberTooLarge)
             refuseMalformed("its JSON has a number at byte {} that is too large", position);
-        refuseMalformed("is not glTF: its JSON is invalid or cut off at byte {}", position);
+        refuseMalformed("is not {}: its JSON is invalid or cut off at byte {}", m_kind, position);
     }
 
 private:
@@ -58,6 +58,7 @@ private:
     }
 
     Budget& m_budget;
+    std::string_view m_kind;
     int m_depth = 0;
     bool m_isObject = false;
     bool m_tooDeep = false;
@@ -65,8 +66,8 @@ private:
 
 }  // namespace
 
-json parseGltfText(std::span<const std::uint8_t> text, Budget& budget) {
-    Weigher weigher(budget);
+json parseJsonText(std::span<const std::uint8_t> text, Budget& budget, std::string_view kind) {
+    Weigher weigher(budget, kind);
     json::sax_parse(text.begin(), text.end(), &weigher);
     if (!weigher.isObject()) refuseMalformed("its JSON is not an object");
     if (weigher.tooDeep()) refuseMalformed("its JSON is nested too deeply, over 64 levels");
