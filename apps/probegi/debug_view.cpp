@@ -133,6 +133,17 @@ Result<std::vector<Ball>> probeBalls(const DebugView& view, const Field& field) 
     return balls;
 }
 
+// Each primitive in a colour of its own, over what is drawn already.
+Result<void> drawPrimitives(const Tracer& tracer, std::span<const Ray> rays, std::span<glm::vec3> pixels) {
+    std::vector<Hit> hits(rays.size());
+    std::vector<Surface> surfaces(rays.size());
+    if (auto hit = tracer.closestHits(rays, hits); !hit) return hit;
+    if (auto found = tracer.surfaces(rays, hits, surfaces); !found) return found;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        if (hits[i].valid()) pixels[i] = colourOf(std::size_t(hits[i].primitive)) * shadeOf(surfaces[i], rays[i]);
+    return {};
+}
+
 // Colours, and the distances of what is seen.
 Result<void> drawRows(const DebugView& view, const Field& field, const Tracer& tracer, std::span<const Ray> rays,
                       std::span<glm::vec3> pixels, std::span<glm::vec3> depth) {
@@ -150,8 +161,8 @@ Result<void> drawRows(const DebugView& view, const Field& field, const Tracer& t
     return {};
 }
 
-Result<HdrImage> draw(const DebugView& view, const Field& field, const Tracer& tracer, const PlacedCamera& camera,
-                      int width, int height) {
+Result<HdrImage> draw(const DebugView& view, const Field& field, const Tracer& tracer, const Tracer* primitives,
+                      const PlacedCamera& camera, int width, int height) {
     constexpr std::size_t kBatch = 65536;  // bounds the memory for surfaces
     HdrImage image;
     image.width = width;
@@ -161,11 +172,13 @@ Result<HdrImage> draw(const DebugView& view, const Field& field, const Tracer& t
     const std::vector<Ray> rays = primaryRays(camera, width, height);
     for (std::size_t begin = 0; begin < rays.size(); begin += kBatch) {
         const std::size_t count = std::min(kBatch, rays.size() - begin);
-        if (auto drawn =
-                drawRows(view, field, tracer, std::span(rays).subspan(begin, count),
-                         std::span(image.pixels).subspan(begin, count), std::span(depth.pixels).subspan(begin, count));
+        const std::span<const Ray> batch = std::span(rays).subspan(begin, count);
+        const std::span<glm::vec3> pixels = std::span(image.pixels).subspan(begin, count);
+        if (auto drawn = drawRows(view, field, tracer, batch, pixels, std::span(depth.pixels).subspan(begin, count));
             !drawn)
             return drawn.error();
+        if (view.primitives && primitives)
+            if (auto drawn = drawPrimitives(*primitives, batch, pixels); !drawn) return drawn.error();
     }
     if (view.ball) {
         const auto balls = probeBalls(view, field);
@@ -181,12 +194,14 @@ std::span<const DebugView> debugViews() {
     static constexpr DebugView kViews[] = {
         {"volumes", "which volume answers, each in a colour of its own, blended by their shares", false, volumesAt,
          nullptr},
+        {"sdf", "the primitives of --sdf, each in a colour of its own; grey: surfaces without one", false, nullptr,
+         nullptr, true},
         {"coverage", "green where the volumes cover a point, red where they do not", false, coverageAt, nullptr},
         {"weights",
          "each probe in a colour of its own; a surface has those of the probes that light it, by their weights: an "
          "edge "
          "is where a probe stops being seen",
-         true, paintAt, nullptr, true},
+         true, paintAt, nullptr, false, true},
         {"states",
          "the probes: green those that surfaces use (vigilant), orange awake for what moves, yellow newly so, blue "
          "asleep, red off; see --probe-states",
@@ -211,12 +226,12 @@ const DebugView* findDebugView(const std::string& name) {
     return found == views.end() ? nullptr : &*found;
 }
 
-Result<HdrImage> drawDebugView(const DebugView& view, Field& field, const Tracer& tracer, const PlacedCamera& camera,
-                               int width, int height) try {
-    if (!view.paints) return draw(view, field, tracer, camera, width, height);
+Result<HdrImage> drawDebugView(const DebugView& view, Field& field, const Tracer& tracer, const Tracer* primitives,
+                               const PlacedCamera& camera, int width, int height) try {
+    if (!view.paints) return draw(view, field, tracer, primitives, camera, width, height);
     const auto stored = paintProbes(field);
     if (!stored) return stored.error();
-    auto image = draw(view, field, tracer, camera, width, height);
+    auto image = draw(view, field, tracer, primitives, camera, width, height);
     if (auto written = field.write(*stored); !written) return written.error();
     return image;
 } catch (const std::bad_alloc&) {

@@ -31,7 +31,8 @@ struct DebugView {
     bool needsLight;                                       ///< the probes must have been updated
     glm::vec3 (*colour)(const Field&, const ShownPoint&);  ///< of a surface; null: grey
     glm::vec3 (*ball)(const ShownProbe&);                  ///< of a probe; null: probes are not shown
-    bool paints = false;  ///< meanwhile each probe shines in a colour of its own instead of the light that it knows
+    bool primitives = false;  ///< colours those of --sdf that the camera sees; the surface where there is none is grey
+    bool paints = false;      ///< meanwhile each probe shines in a colour of its own instead of the light that it knows
 };
 
 std::span<const DebugView> debugViews();
@@ -40,8 +41,9 @@ std::span<const DebugView> debugViews();
 const DebugView* findDebugView(const std::string& name);
 
 /// Draws a view, with some shading so that shapes can be told; linear values, of which a PNG shows `colour`. Sky is
-/// black. The field is afterwards as it was. Errors: outOfMemory, and those of the tracer and of Field::write.
-Result<HdrImage> drawDebugView(const DebugView& view, Field& field, const Tracer& tracer, const PlacedCamera& camera,
-                               int width, int height);
+/// black. The field is afterwards as it was. `primitives`: a tracer of --sdf; null: none. Errors: outOfMemory, and
+/// those of the tracers and of Field::write.
+Result<HdrImage> drawDebugView(const DebugView& view, Field& field, const Tracer& tracer, const Tracer* primitives,
+                               const PlacedCamera& camera, int width, int height);
 
 }  // namespace probegi::tool

@@ -13,6 +13,7 @@
 #include "debug_view.h"
 #include "render_options.h"
 #include "render_stats.h"
+#include "sdf_scene.h"
 
 namespace probegi::tool {
 
@@ -32,6 +33,7 @@ Example: probegi render builtin:house -o house.png --backend vulkan
 Example: probegi render builtin:mirrors -o mirrors.png --glossy field
 Example: probegi render sponza.glb -o near.png --camera nave --sky 0.3,0.4,0.6 --cascades 4
 Example: probegi render sponza.glb -o seams.png --camera nave --sky 0.3,0.4,0.6 --cascades 4 --debug volumes
+Example: probegi render builtin:house -o house.png --sdf house.sdf.json
 Example: probegi render builtin:house -o truth.png --method reference --time 30
 Example: probegi render builtin:door -o door%03d.png --animate 0:4:0.1 --camera second
 Example: probegi render builtin:moving -o moving.mp4 --animate 0:4:0.04 --camera tracking
@@ -40,14 +42,22 @@ Example: probegi render builtin:moving -o moving.mp4 --animate 0:4:0.04 --camera
 --animate fills the probes by 100 real-time updates (--frames) before the first picture; all pictures get one exposure,
 chosen from five of them. With --method reference, --spp and --time are for each picture.)";
 
-Result<std::optional<Field>> makeField(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
+/// What rays hit: those of pictures, and those of probes if it is something else (--sdf).
+struct Tracers {
+    const Tracer& pictures;
+    const Tracer* primitives;
+
+    const Tracer& probes() const { return primitives ? *primitives : pictures; }
+};
+
+Result<std::optional<Field>> makeField(const Backend& backend, const Tracers& tracers, const LoadedSetup& setup,
                                        const RenderOptions& options, RenderStats& stats) {
     auto field = makeEmptyField(backend, setup, options);
     if (!field || !*field) return field;
     stats.probes = probeCount((*field)->desc());
     stats.raysPerProbe = (*field)->desc().raysPerProbe;
     if (!options.debug.empty() && !findDebugView(options.debug)->needsLight) return field;
-    auto run = runField(**field, tracer, setup.lighting, options.run);
+    auto run = runField(**field, tracers.probes(), setup.lighting, options.run);
     if (!run) return run.error();
     stats.run = std::move(*run);
     if (auto unlimited = (*field)->control().setBudget({}); !unlimited) return unlimited.error();
@@ -55,37 +65,37 @@ Result<std::optional<Field>> makeField(const Backend& backend, const Tracer& tra
     return field;
 }
 
-Result<Picture> drawWithField(const Context&, const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
+Result<Picture> drawWithField(const Context&, const Backend& backend, const Tracers& tracers, const LoadedSetup& setup,
                               const RenderOptions& options, RenderStats& stats) {
-    const auto field = makeField(backend, tracer, setup, options, stats);
+    const auto field = makeField(backend, tracers, setup, options, stats);
     if (!field) return field.error();
     const auto renderer = backend.makeRenderer();
     if (!renderer) return renderer.error();
     auto rendered =
-        (*renderer)->render(tracer, setup.lighting, *field ? &**field : nullptr, pictureDesc(options, setup));
+        (*renderer)->render(tracers.pictures, setup.lighting, *field ? &**field : nullptr, pictureDesc(options, setup));
     if (!rendered) return rendered.error();
     stats.pictureMs = rendered->times.total;
     if (options.glossy != Glossy::off) stats.glossyMs = rendered->times.glossy;
     return std::move(rendered->picture);
 }
 
-Result<Picture> drawReference(const Context& context, const Backend& backend, const Tracer& tracer,
+Result<Picture> drawReference(const Context& context, const Backend& backend, const Tracers& tracers,
                               const LoadedSetup& setup, const RenderOptions& options, RenderStats& stats) {
-    const auto field = makeField(backend, tracer, setup, options, stats);
+    const auto field = makeField(backend, tracers, setup, options, stats);
     if (!field) return field.error();
-    auto rendered = renderReference(context, tracer, setup, options, *field ? &**field : nullptr);
+    auto rendered = renderReference(context, tracers.pictures, setup, options, *field ? &**field : nullptr);
     if (!rendered) return rendered.error();
     stats.pictureMs = rendered->seconds * 1000;
     return std::move(rendered->picture);
 }
 
-Result<void> renderDebugView(const Backend& backend, const Tracer& tracer, const LoadedSetup& setup,
+Result<void> renderDebugView(const Backend& backend, const Tracers& tracers, const LoadedSetup& setup,
                              const RenderOptions& options, RenderStats& stats) {
-    auto field = makeField(backend, tracer, setup, options, stats);
+    auto field = makeField(backend, tracers, setup, options, stats);
     if (!field) return field.error();
     const PictureSize size = *parseSize(options.size);
-    const auto image =
-        drawDebugView(*findDebugView(options.debug), **field, tracer, setup.camera, size.width, size.height);
+    const auto image = drawDebugView(*findDebugView(options.debug), **field, tracers.pictures, tracers.primitives,
+                                     setup.camera, size.width, size.height);
     if (!image) return image.error();
     return writeImage(options.output, *image);
 }
@@ -101,6 +111,7 @@ void warnAboutUnusedOptions(const RenderOptions& options) {
         printWarning("--frames and --tolerance act on --method ddgi and leaky, and on --guide on, only");
     if (!probes && (options.relocation || options.probeStates))
         printWarning("--relocation and --probe-states act on --method ddgi and leaky only");
+    if (!probes && !options.scene.sdf.empty()) printWarning("--sdf acts on --method ddgi and leaky only");
     if (!probes && options.rules == FieldRules::paper) printWarning("--rules acts on --method ddgi and leaky only");
     if (!options.animate.empty() && options.run.tolerance)
         printWarning("--tolerance acts on single pictures only; --frames says how --animate fills the probes");
@@ -117,6 +128,8 @@ void checkOptions(const CLI::App& command, const RenderOptions& options) {
                                    "neither --method reference nor --diffuse-only");
     if (!options.debug.empty() && (options.method == Method::none || options.method == Method::reference))
         throw CLI::ValidationError("--debug", "--method none and reference have no probes to show");
+    if (!options.debug.empty() && findDebugView(options.debug)->primitives && options.scene.sdf.empty())
+        throw CLI::ValidationError("--debug", "sdf shows the primitives of --sdf FILE");
     if (!options.budget.empty() && (!hasProbes(options) || (options.animate.empty() && !options.run.frames)))
         throw CLI::ValidationError("--budget", "it limits the real-time updates of probes: give --frames or --animate");
     if (options.method == Method::reference && options.backend.kind == BackendKind::vulkan)
@@ -144,14 +157,18 @@ Result<void> render(const RenderOptions& options) {
     if (auto apart = outputs.keepApartFrom(setup->files); !apart) return apart;
     const auto tracer = (*backend)->openScene(*setup->scene, setup->pose);
     if (!tracer) return tracer.error();
+    const auto primitives = openProbeTracer(**backend, *setup, setup->pose);
+    if (!primitives) return primitives.error();
+    const Tracers tracers{**tracer, primitives->get()};
 
     RenderStats stats;
+    stats.sdf = setup->sdf;
     if (!options.debug.empty()) {
-        if (auto drawn = renderDebugView(**backend, **tracer, *setup, options, stats); !drawn) return drawn;
+        if (auto drawn = renderDebugView(**backend, tracers, *setup, options, stats); !drawn) return drawn;
         return options.stats.empty() ? Result<void>() : writeText(options.stats, statsJson(stats));
     }
     const auto draw = options.method == Method::reference ? drawReference : drawWithField;
-    const auto picture = draw(*context, **backend, **tracer, *setup, options, stats);
+    const auto picture = draw(*context, **backend, tracers, *setup, options, stats);
     if (!picture) return picture.error();
     const ToneMap toneMap{shownExposure(*setup, picture->color), options.filmic};
     if (auto written = writeAov(options.output, *picture, options.aov, toneMap); !written) return written;
@@ -272,6 +289,7 @@ void addMethodOptions(CLI::App& command, RenderOptions& options) {
                     "(default off)")
         ->type_name("on|off")
         ->transform(oneOf(kOnOff));
+    addSdfOption(command, options.scene);
     addFieldRunOptions(command, options.run);
     command
         .add_option(

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "console/output.h"
+#include "sdf_scene.h"
 
 namespace probegi::tool {
 
@@ -42,6 +43,10 @@ std::string statsJson(const RenderStats& stats) {
         {"updateMs", {{"trace", ms.trace}, {"shade", ms.shade}, {"blend", ms.blend}, {"total", ms.total}}},
         {"pictureMs", stats.pictureMs}};
     if (stats.glossyMs) json["glossyMs"] = *stats.glossyMs;
+    if (stats.sdf) {
+        json["primitives"] = stats.sdf->primitives.size();
+        json["primitiveBytes"] = sdfBytes(*stats.sdf);
+    }
     json["peakMemoryBytes"] = peakMemoryBytes();
     return jsonText(json);
 }

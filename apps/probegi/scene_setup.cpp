@@ -10,6 +10,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "console/parse.h"
+#include "sdf_scene.h"
 
 namespace probegi::tool {
 
@@ -247,6 +248,7 @@ Result<LoadedSetup> loadSetup(const SceneOptions& options) {
     for (const std::string& warning : setup.warnings) printWarning(warning);
     setup.scene = std::make_unique<Scene>(std::move(loaded->scene));
     setup.pose = poseAt(*setup.scene, options.timeOfScene);
+    if (auto read = readSdf(setup, options); !read) return read.error();
     const Exposure exposure = *parseExposure(options.exposure);
     setup.exposure = exposure.factor.value_or(setup.scene->exposure);
     setup.automaticExposure = exposure.automatic;

@@ -11,6 +11,7 @@
 #include "probegi/builtin_scenes.h"
 #include "probegi/field.h"
 #include "probegi/io.h"
+#include "probegi/sdf.h"
 #include "probegi/tracer.h"
 #include "volume_options.h"
 
@@ -33,6 +34,7 @@ struct SceneOptions {
     std::string volume, probes;      ///< --volume, --probes
     VolumeOptions volumes;           ///< --cascades, --outside
     std::string exposure = "scene";  ///< --exposure
+    std::string sdf;                 ///< --sdf; empty: none
     ReadLimits limits;               ///< --unpack-limit
 };
 
@@ -51,6 +53,7 @@ struct LoadedSetup {
     std::vector<VolumeDesc> volumes;    ///< of the field, at least one
     FieldSettings settings;             ///< for it: what the options say
     VolumeDesc grid;                    ///< the first of the volumes
+    std::optional<SdfScene> sdf;        ///< --sdf: what probe rays hit instead of the triangles
     float exposure = 1.0f;              ///< as requested, or as the scene suggests
     bool automaticExposure = false;     ///< choose it for the picture
     std::vector<std::string> warnings;  ///< by the reader, and about surfaces outside the grid; one sentence each

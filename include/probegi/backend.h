@@ -9,6 +9,7 @@
 #include "probegi/export.h"
 #include "probegi/field.h"
 #include "probegi/render.h"
+#include "probegi/sdf.h"
 #include "probegi/tracer.h"
 
 namespace probegi {
@@ -42,6 +43,10 @@ public:
     /// The same for a scene in which things move. Errors: those, and invalidArgument (no such node in the scene).
     virtual Result<std::unique_ptr<MovableTracer>> openMovableScene(const Scene& scene, const ScenePose& pose,
                                                                     const MovableDesc& movable = {}) const = 0;
+    /// Primitives that stand for the scene (makeSdfTracer), to trace: for updates of fields, whose probes then see them
+    /// instead of the triangles. Errors: as makeSdfTracer; of a GPU also deviceLost.
+    virtual Result<std::unique_ptr<MovableTracer>> openSdf(const SdfScene& sdf, const Scene& scene,
+                                                           const ScenePose& pose) const = 0;
     /// Errors: as Field::create; of a GPU also unsupported (more probes or rays than it can hold), deviceLost.
     virtual Result<Field> makeField(const FieldDesc& desc, const FieldSettings& settings = {}) const = 0;
     /// Errors: outOfMemory.

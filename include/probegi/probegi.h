@@ -13,6 +13,7 @@
 #include "probegi/render.h"
 #include "probegi/result.h"
 #include "probegi/scene.h"
+#include "probegi/sdf.h"
 #include "probegi/shapes.h"
 #include "probegi/snapshot.h"
 #include "probegi/tracer.h"

@@ -92,11 +92,12 @@ struct MovableDesc {
     std::span<const int> nodes{};
 };
 
-/// How triangles are traced on a GPU.
+/// How a scene is traced on a GPU.
 enum class TracerKind : std::uint8_t {
     automatic,  ///< ray query where it is in hardware, else the BVH
     bvh,        ///< the library's own wide, quantised BVH in compute; any device
     rayQuery,   ///< VK_KHR_ray_query
+    sdf,        ///< primitives instead of triangles (probegi/sdf.h); only where a call takes them
 };
 
 /// Triangles by Embree on the CPU, with textures. Meshes used once are merged, shared ones become instances.

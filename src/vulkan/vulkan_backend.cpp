@@ -34,6 +34,10 @@ public:
                                                             const MovableDesc& movable) const override {
         return makeMovableTracer(m_context, m_device, scene, pose, movable, m_tracer);
     }
+    Result<std::unique_ptr<MovableTracer>> openSdf(const SdfScene& sdf, const Scene& scene,
+                                                   const ScenePose& pose) const override {
+        return makeSdfTracer(m_context, m_device, sdf, scene, pose);
+    }
     Result<Field> makeField(const FieldDesc& desc, const FieldSettings& settings) const override {
         return vulkan::makeField(m_context, m_device, desc, settings);
     }

@@ -42,7 +42,7 @@ inline SdfSolid plainSolid(uint shape, vec3 halfSize, float rounding = 0) {
     return solid;
 }
 
-constexpr std::array kSdfShapes = {kSdfBox, kSdfRoundedBox, kSdfSphere, kSdfCapsule, kSdfCylinder, kSdfPlane};
+inline constexpr std::array kSdfShapes = {kSdfBox, kSdfRoundedBox, kSdfSphere, kSdfCapsule, kSdfCylinder, kSdfPlane};
 
 /// A solid anywhere within 2 m, turned, of sizes from `smallest` to 1 m.
 inline SdfSolid randomSolid(SdfDice& dice, uint shape, float smallest = 0.05f) {

@@ -6,6 +6,10 @@
 #include <span>
 
 #include "probegi/sdf.h"
+#ifdef PROBEGI_TEST_VULKAN
+#include "probegi/vulkan.h"
+#include "support/vulkan_device.h"
+#endif
 
 namespace probegi::test {
 
@@ -17,9 +21,19 @@ struct SdfTracerMaker {
     friend std::ostream& operator<<(std::ostream& out, const SdfTracerMaker& maker) { return out << maker.name; }
 };
 
+#ifdef PROBEGI_TEST_VULKAN
+inline Result<std::unique_ptr<MovableTracer>> makeVulkanSdfTracer(const Context& context, const SdfScene& sdf,
+                                                                  const Scene& scene, const ScenePose& pose) {
+    return vulkan::makeSdfTracer(context, testDevice(), sdf, scene, pose);
+}
+#endif
+
 inline std::span<const SdfTracerMaker> sdfTracerMakers() {
     static const SdfTracerMaker makers[] = {
         {"cpu", makeSdfTracer},
+#ifdef PROBEGI_TEST_VULKAN
+        {"vulkan", makeVulkanSdfTracer},
+#endif
     };
     return makers;
 }

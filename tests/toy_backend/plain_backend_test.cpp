@@ -32,6 +32,10 @@ public:
                                                             const MovableDesc& movable) const override {
         return makeMovableEmbreeTracer(m_context, scene, pose, movable);
     }
+    Result<std::unique_ptr<MovableTracer>> openSdf(const SdfScene& sdf, const Scene& scene,
+                                                   const ScenePose& pose) const override {
+        return makeSdfTracer(m_context, sdf, scene, pose);
+    }
     Result<Field> makeField(const FieldDesc& desc, const FieldSettings& settings) const override {
         if (auto ok = validateFieldDesc(desc); !ok) return ok.error();
         if (auto ok = validateFieldSettings(settings); !ok) return ok.error();

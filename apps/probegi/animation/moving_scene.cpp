@@ -4,6 +4,8 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <vector>
 
+#include "sdf_scene.h"
+
 namespace probegi::tool {
 
 namespace {
@@ -56,9 +58,13 @@ Result<MovingScene> MovingScene::open(const Backend& backend, LoadedSetup& setup
     MovingScene moving;
     moving.m_setup = &setup;
     moving.m_options = &options;
-    auto tracer = backend.openMovableScene(*setup.scene, withHiddenAsSpecks(*setup.scene, setup.pose));
+    const ScenePose pose = withHiddenAsSpecks(*setup.scene, setup.pose);
+    auto tracer = backend.openMovableScene(*setup.scene, pose);
     if (!tracer) return tracer.error();
     moving.m_tracer = std::move(*tracer);
+    auto probeTracer = openProbeTracer(backend, setup, pose);
+    if (!probeTracer) return probeTracer.error();
+    moving.m_probeTracer = std::move(*probeTracer);
     auto field = makeEmptyField(backend, setup, options);
     if (!field) return field.error();
     moving.m_field = std::move(*field);
@@ -69,7 +75,7 @@ Result<MovingScene> MovingScene::open(const Backend& backend, LoadedSetup& setup
 Result<FieldRun> MovingScene::fill() {
     if (!m_field) return FieldRun();
     if (auto told = tellField(); !told) return told.error();
-    return runField(*m_field, *m_tracer, m_setup->lighting, m_options->run);
+    return runField(*m_field, probeTracer(), m_setup->lighting, m_options->run);
 }
 
 void MovingScene::watchFromHere() {
@@ -80,9 +86,13 @@ Result<MoveTimes> MovingScene::moveTo(double seconds, int updates) {
     MoveTimes times;
     auto start = Clock::now();
     if (auto moved = moveSetup(*m_setup, m_options->scene, float(seconds)); !moved) return moved.error();
-    if (!m_setup->scene->animations.empty())
-        if (auto moved = m_tracer->setPose(withHiddenAsSpecks(*m_setup->scene, m_setup->pose)); !moved)
-            return moved.error();
+    if (!m_setup->scene->animations.empty()) {
+        const ScenePose pose = withHiddenAsSpecks(*m_setup->scene, m_setup->pose);
+        for (MovableTracer* tracer : {m_tracer.get(), m_probeTracer.get()}) {
+            if (!tracer) continue;
+            if (auto moved = tracer->setPose(pose); !moved) return moved.error();
+        }
+    }
     times.pose = millisecondsSince(start);
     if (m_watch) {
         const auto edits = m_watch->edits(m_setup->pose, m_setup->lighting, *m_tracer);
@@ -94,7 +104,7 @@ Result<MoveTimes> MovingScene::moveTo(double seconds, int updates) {
     if (auto told = tellField(); !told) return told.error();
     for (int i = 0; m_field && i < updates; ++i) {
         times.updated.push_back(m_field->control().tasks().size());
-        if (const auto updated = m_field->update(*m_tracer, m_setup->lighting); !updated) return updated.error();
+        if (const auto updated = m_field->update(probeTracer(), m_setup->lighting); !updated) return updated.error();
     }
     times.update = millisecondsSince(start);
     return times;

@@ -39,10 +39,13 @@ public:
 private:
     MovingScene() = default;
     Result<void> tellField();
+    /// What probe rays hit.
+    const Tracer& probeTracer() const { return m_probeTracer ? *m_probeTracer : *m_tracer; }
 
     LoadedSetup* m_setup = nullptr;
     const RenderOptions* m_options = nullptr;
     std::unique_ptr<MovableTracer> m_tracer;
+    std::unique_ptr<MovableTracer> m_probeTracer;  // null: probe rays hit what pictures show
     std::optional<Field> m_field;
     std::optional<SceneWatch> m_watch;
 };

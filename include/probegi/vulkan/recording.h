@@ -4,6 +4,7 @@
 
 #include "probegi/field.h"
 #include "probegi/image.h"
+#include "probegi/sdf.h"
 #include "probegi/shared/screen_sample.h"
 #include "probegi/vulkan/device.h"
 
@@ -20,6 +21,9 @@ struct GpuSceneDesc {
     /// Further nodes that recordPose() can move, with their children: objects moved by the engine. Read during the call
     /// only.
     std::span<const int> movableNodes{};
+    /// With TracerKind::sdf, and only then: the primitives to trace, as makeSdfTracer does; recordPose() moves those
+    /// that ride on nodes, and the scene's triangles and materials are not uploaded. Read during the call only.
+    const SdfScene* sdf = nullptr;
 };
 
 /// A scene's triangles, materials, textures and acceleration structures in GPU memory.
@@ -27,7 +31,8 @@ class PROBEGI_API GpuScene {
 public:
     /// Builds the BVH on the context's threads, allocates, and fills staging memory. The scene must be valid; it is
     /// read during the call only. Errors: outOfMemory, unsupported (ray query requested but unavailable),
-    /// invalidArgument (no such movable node in the scene).
+    /// invalidArgument (no such movable node in the scene; primitives without TracerKind::sdf, or it without them), and
+    /// those of makeSdfTracer.
     static Result<GpuScene> create(const Context& context, const Device& device, const Scene& scene,
                                    const ScenePose& pose, const GpuSceneDesc& desc = {});
     GpuScene(GpuScene&&) noexcept;

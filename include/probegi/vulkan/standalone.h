@@ -23,6 +23,12 @@ PROBEGI_API Result<std::unique_ptr<MovableTracer>> makeMovableTracer(const Conte
                                                                      const MovableDesc& movable = {},
                                                                      TracerKind tracer = TracerKind::automatic);
 
+/// Primitives traced on the GPU, as probegi::makeSdfTracer does on the CPU: the same hits. Errors: those, and
+/// deviceLost.
+PROBEGI_API Result<std::unique_ptr<MovableTracer>> makeSdfTracer(const Context& context, const Device& device,
+                                                                 const SdfScene& sdf, const Scene& scene,
+                                                                 const ScenePose& pose);
+
 /// A Field whose passes run on the GPU. Its update() accepts any Tracer: with one of makeTracer() on the same device
 /// everything stays on the GPU, with another the rays are traced and shaded by the CPU and uploaded.
 /// Errors: as GpuField::create.

@@ -28,6 +28,12 @@ struct SdfSolid {
     float rounding;
 };
 
+// What a primitive looks like.
+struct SdfPaint {
+    vec3 albedo;    // linear RGB, 0..1
+    vec3 emission;  // W sr^-1 m^-2
+};
+
 KERNEL_FN vec3 sdfToLocal(SdfSolid solid, vec3 direction) {
     return turnedBy(vec3(-solid.rotation.x, -solid.rotation.y, -solid.rotation.z), solid.rotation.w, direction);
 }
@@ -143,6 +149,7 @@ KERNELS_END
 namespace probegi::kernels {
 static_assert(offsetof(SdfSolid, shape) == 12 && offsetof(SdfSolid, rotation) == 16 &&
               offsetof(SdfSolid, halfSize) == 32 && offsetof(SdfSolid, rounding) == 44 && sizeof(SdfSolid) == 48);
+static_assert(offsetof(SdfPaint, emission) == 12 && sizeof(SdfPaint) == 24);
 }  // namespace probegi::kernels
 #endif
 

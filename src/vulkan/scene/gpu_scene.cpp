@@ -8,26 +8,43 @@
 
 namespace probegi::vulkan {
 
+namespace {
+
+constexpr const char* kWrongKind =
+    "TracerKind::sdf traces the primitives of GpuSceneDesc::sdf, and no other kind does; give both or neither";
+
+}  // namespace
+
 GpuScene::Impl::Impl(const Context& context, const Device& d, const Scene& scene, const ScenePose& pose,
                      const GpuSceneDesc& desc, const SceneTracerType& type)
     : device(d), tracerType(type) {
+    if ((desc.sdf != nullptr) != (type.kind == TracerKind::sdf)) throw Failure(ErrorCode::invalidArgument, kWrongKind);
     orThrow(checkNodes(scene, desc.movableNodes, "movableNodes"));
-    const SceneGeometry geometry =
-        SceneGeometry::gather(scene, pose, movableInstances(scene, desc.movable, desc.movableNodes));
-    placements = geometry.placements;
-    bounds = geometry.bounds();
-    worldBounds = geometry.world.bounds();
-    hasWorld = !geometry.world.empty();
-    for (const SurfaceGroup& group : geometry.groups) groupBounds.push_back(group.bounds());
+    if (desc.sdf) primitives = orThrow(PlacedPrimitives::create(*desc.sdf, scene, pose));
+    const Scene nothing;
+    const Scene& shown = primitives ? nothing : scene;
+    const ScenePose& shownPose = primitives ? poseAt(nothing) : pose;
+    const SceneGeometry geometry = SceneGeometry::gather(
+        shown, shownPose, primitives ? InstancePredicate() : movableInstances(scene, desc.movable, desc.movableNodes));
+    measure(geometry);
     if (type.hitsTriangles) emitterGeometry = EmitterGeometry(scene, pose);
     emitters = emitterGeometry.placed();
-    data = packScene(geometry, emitters, scene, MipMaps(context, scene));
+    data = packScene(geometry, emitters, shown, MipMaps(context, shown));
     upload();
-    tracer = type.make({context, device, geometry, data, vertices.address(), staging});
+    tracer =
+        type.make({context, device, geometry, data, vertices.address(), staging, primitives ? &*primitives : nullptr});
     staging.fill(device.impl());
     constantsBuffer = Buffer(device.impl(), "scene constants", sizeof(kernels::SceneConstants),
                              vk::BufferUsageFlagBits::eUniformBuffer | vk::BufferUsageFlagBits::eTransferDst);
     writeSet();
+}
+
+void GpuScene::Impl::measure(const SceneGeometry& geometry) {
+    placements = geometry.placements;
+    bounds = primitives ? primitives->bounds() : geometry.bounds();
+    worldBounds = geometry.world.bounds();
+    hasWorld = !geometry.world.empty();
+    for (const SurfaceGroup& group : geometry.groups) groupBounds.push_back(group.bounds());
 }
 
 void GpuScene::Impl::upload() {
@@ -128,6 +145,7 @@ void GpuScene::releaseStaging() noexcept {
 }
 
 Result<void> GpuScene::recordPose(VkCommandBuffer commands, const ScenePose& pose) {
+    if (m_impl->primitives) return m_impl->movePrimitives(commands, pose);
     auto placements = movedPlacements(m_impl->placements, pose);
     if (!placements) return placements.error();
     return guarded("moving instances", [&] {
@@ -143,6 +161,18 @@ Result<void> GpuScene::recordPose(VkCommandBuffer commands, const ScenePose& pos
         recorder.write(m_impl->emitterBuffer, std::as_bytes(std::span(lamps)));
         m_impl->tracer->recordPlacements(recorder, m_impl->placements);
         recorder.write(m_impl->constantsBuffer, bytesOf(m_impl->constants()));
+        recorder.orderAll();
+    });
+}
+
+Result<void> GpuScene::Impl::movePrimitives(VkCommandBuffer commands, const ScenePose& pose) {
+    if (auto moved = primitives->setPose(pose); !moved) return moved;
+    return guarded("moving primitives", [&] {
+        bounds = primitives->bounds();
+        const Recorder recorder(device.impl(), commands);
+        recorder.orderAll();
+        tracer->recordPrimitives(recorder, *primitives);
+        recorder.write(constantsBuffer, bytesOf(constants()));
         recorder.orderAll();
     });
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "geometry/emitters.h"
 #include "vulkan/tracers/scene_tracer.h"
 
@@ -19,8 +21,11 @@ struct GpuScene::Impl {
     kernels::SceneConstants constants() const;
     Bounds placedBounds() const;  // for the current placements
     bool placeEmitters();         // for the current placements; returns whether there are any
+    /// GpuScene::recordPose() of a scene of primitives.
+    Result<void> movePrimitives(VkCommandBuffer commands, const ScenePose& pose);
 
     Device device;
+    std::optional<PlacedPrimitives> primitives;  // instead of triangles
     std::vector<Placement> placements;
     Bounds bounds;
     Bounds worldBounds;  // of the merged meshes; undefined without hasWorld
@@ -38,6 +43,7 @@ struct GpuScene::Impl {
     SceneData data;  // source of the staged copies; cleared with them
 
 private:
+    void measure(const SceneGeometry& geometry);
     void upload();
     void writeSet();
 };

@@ -41,7 +41,7 @@ GpuTracer::GpuTracer(const Device& device, GpuScene scene)
 }
 
 const EmitterSet* GpuTracer::emitters() const {
-    return &m_scene.impl().emitters;
+    return m_scene.impl().tracerType.hitsTriangles ? &m_scene.impl().emitters : nullptr;
 }
 
 template <class Answer, class Take>
@@ -120,6 +120,15 @@ Result<std::unique_ptr<MovableTracer>> makeMovableTracer(const Context& context,
                                                          const MovableDesc& movable, TracerKind tracer) {
     const GpuSceneDesc desc{.tracer = tracer, .movable = movable.animated, .movableNodes = movable.nodes};
     return guarded("uploading the scene",
+                   [&] { return std::unique_ptr<MovableTracer>(uploaded(context, device, scene, pose, desc)); });
+}
+
+Result<std::unique_ptr<MovableTracer>> makeSdfTracer(const Context& context, const Device& device, const SdfScene& sdf,
+                                                     const Scene& scene, const ScenePose& pose) {
+    GpuSceneDesc desc;
+    desc.tracer = TracerKind::sdf;
+    desc.sdf = &sdf;
+    return guarded("uploading the primitives",
                    [&] { return std::unique_ptr<MovableTracer>(uploaded(context, device, scene, pose, desc)); });
 }
 

@@ -4,6 +4,7 @@
 
 #include "geometry/scene_geometry.h"
 #include "kernels/abi/gpu_passes.h"
+#include "sdf/placed_primitives.h"
 #include "vulkan/device/staging.h"
 #include "vulkan/scene/scene_data.h"
 
@@ -16,8 +17,9 @@ struct TracedScene {
     const Device& device;
     const SceneGeometry& geometry;
     const SceneData& data;
-    VkDeviceAddress vertices;  ///< of SceneData::vertices on the device
-    Staging& staging;          ///< recorded before SceneTracer::recordBuild()
+    VkDeviceAddress vertices;                      ///< of SceneData::vertices on the device
+    Staging& staging;                              ///< recorded before SceneTracer::recordBuild()
+    const PlacedPrimitives* primitives = nullptr;  ///< of GpuSceneDesc::sdf
 };
 
 /// The C++ half of a tracer: uploads and builds what its shaders traverse. The other half is shaders/tracer_NAME.glsl,
@@ -33,6 +35,8 @@ public:
     virtual void recordBuild(const Recorder& recorder) = 0;
     /// New transforms of the placements, in the same order. Rays do not hit a placement with a singular transform.
     virtual void recordPlacements(const Recorder& recorder, const std::vector<Placement>& placements) = 0;
+    /// New places of the primitives, in the same order; for tracers that were made with some.
+    virtual void recordPrimitives(const Recorder&, const PlacedPrimitives&) {}
     /// Frees what only the build needed; called after it has finished.
     virtual void releaseStaging() noexcept = 0;
     virtual std::size_t bytes() const noexcept = 0;

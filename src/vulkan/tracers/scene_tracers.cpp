@@ -7,11 +7,15 @@ namespace probegi::vulkan {
 // Defined in NAME_scene_tracer.cpp.
 std::unique_ptr<SceneTracer> makeBvhSceneTracer(const TracedScene& scene);
 std::unique_ptr<SceneTracer> makeRayQuerySceneTracer(const TracedScene& scene);
+std::unique_ptr<SceneTracer> makeSdfSceneTracer(const TracedScene& scene);
 
 namespace {
 
 bool always(const Device&) {
     return true;
+}
+bool never(const Device&) {
+    return false;
 }
 bool hasRayQuery(const Device& device) {
     return device.rayQuery();
@@ -25,6 +29,7 @@ bool hasRayQueryInHardware(const Device& device) {
 constexpr SceneTracerType kTracers[] = {
     {"ray_query", TracerKind::rayQuery, "ray query", hasRayQuery, hasRayQueryInHardware, makeRayQuerySceneTracer},
     {"bvh", TracerKind::bvh, "", always, always, makeBvhSceneTracer},
+    {"sdf", TracerKind::sdf, "", always, never, makeSdfSceneTracer, false},
 };
 
 }  // namespace
