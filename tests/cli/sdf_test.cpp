@@ -1,0 +1,126 @@
+// probegi render --sdf.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/tool.h"
+#include "probegi/image.h"
+
+namespace probegi::test {
+namespace {
+
+using testing::HasSubstr;
+
+// The Cornell box by hand.
+constexpr const char* kCornell = R"({"sdf": 1, "primitives": [
+ {"name": "floor", "shape": "box", "centre": [2.764, -0.1, -2.896], "halfSize": [2.964, 0.1, 2.896], "albedo": [0.725, 0.71, 0.68]},
+ {"name": "ceiling", "shape": "box", "centre": [2.764, 5.588, -2.896], "halfSize": [2.964, 0.1, 2.896], "albedo": [0.725, 0.71, 0.68]},
+ {"name": "back", "shape": "box", "centre": [2.764, 2.744, -5.692], "halfSize": [2.964, 2.744, 0.1], "albedo": [0.725, 0.71, 0.68]},
+ {"name": "left", "shape": "box", "centre": [-0.1, 2.744, -2.796], "halfSize": [0.1, 2.744, 2.796], "albedo": [0.63, 0.065, 0.05]},
+ {"name": "right", "shape": "box", "centre": [5.628, 2.744, -2.796], "halfSize": [0.1, 2.744, 2.796], "albedo": [0.14, 0.45, 0.091]},
+ {"name": "lamp", "shape": "box", "centre": [2.748, 5.483, -2.795], "halfSize": [0.65, 0.005, 0.525], "emission": [17, 12, 4]},
+ {"name": "short block", "shape": "box", "centre": [3.673, 0.825, -1.69], "rotation": [0, 0.5969305, 0, 0.8022929], "halfSize": [0.835225, 0.825, 0.824212], "albedo": [0.725, 0.71, 0.68]},
+ {"name": "tall block", "shape": "box", "centre": [1.843, 1.65, -3.5125], "rotation": [0, 0.1497946, 0, 0.9887171], "halfSize": [0.827118, 1.65, 0.836675], "albedo": [0.725, 0.71, 0.68]}]})";
+
+class Sdf : public testing::Test {
+protected:
+    Sdf() { writeText(file(), kCornell); }
+    std::string file(const std::string& name = "cornell.sdf.json") const { return m_folder.file(name); }
+    std::vector<std::string> arguments(const std::vector<std::string>& more) const {
+        std::vector<std::string> all{"render", "builtin:cornell", "-o", file("a.exr"), "--size", "48x27"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    HdrImage render(const std::vector<std::string>& more) const {
+        const ToolRun run = runTool(arguments(more));
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        EXPECT_EQ(run.err, "");
+        return readImage(file("a.exr")).value_or(HdrImage());
+    }
+    static std::vector<std::string> lit(std::vector<std::string> more) {
+        more.insert(more.end(), {"--aov", "indirect", "--probes", "8x8x8", "--frames", "40", "--rays", "96"});
+        return more;
+    }
+
+    TemporaryFolder m_folder;
+};
+
+glm::dvec3 mean(const HdrImage& image) {
+    glm::dvec3 sum(0);
+    for (const glm::vec3& pixel : image.pixels) sum += glm::dvec3(pixel);
+    return sum / double(image.pixels.size());
+}
+
+TEST_F(Sdf, lightsTheSceneAsItsTrianglesDo) {
+    const glm::dvec3 triangles = mean(render(lit({}))), primitives = mean(render(lit({"--sdf", file()})));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(primitives[c] / triangles[c], 1, 0.04) << c;
+}
+
+TEST_F(Sdf, isTheSameOnVulkan) {
+    const std::vector<std::string> few{"--sdf", file(), "--probes", "4x4x4", "--frames", "2", "--rays", "32"};
+    std::vector<std::string> gpu = few;
+    gpu.insert(gpu.end(), {"--backend", "vulkan"});
+    const glm::dvec3 ours = mean(render(few)), theirs = mean(render(gpu));
+    EXPECT_NEAR(ours.x / theirs.x, 1, 1e-4);
+}
+
+TEST_F(Sdf, statsSayHowManyAndHowLarge) {
+    const ToolRun run =
+        runTool(arguments({"--sdf", file(), "--frames", "1", "--probes", "3x3x3", "--stats", file("s.json")}));
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    const auto stats = nlohmann::json::parse(readText(file("s.json")));
+    EXPECT_EQ(stats["primitives"], 8);
+    EXPECT_EQ(stats["primitiveBytes"], 384);
+}
+
+TEST_F(Sdf, debugShowsEachPrimitiveInAColour) {
+    const HdrImage shown = render({"--debug", "sdf", "--sdf", file()});
+    std::set<int> hues;
+    for (const glm::vec3& pixel : shown.pixels) {
+        const float most = std::max({pixel.x, pixel.y, pixel.z});
+        if (most > 0) hues.insert(int(16 * pixel.x / most) * 256 + int(16 * pixel.y / most));
+    }
+    EXPECT_GE(hues.size(), 7u);
+    expectRefused({"render", "builtin:cornell", "-o", file("b.png"), "--debug", "sdf"}, "--sdf FILE", 2);
+}
+
+// Pictures show the triangles, wherever the camera is.
+TEST_F(Sdf, aCameraInsideAPrimitiveSeesTheScene) {
+    writeText(file("solid.json"), R"({"sdf": 1, "primitives": [
+        {"shape": "box", "centre": [2.7, 2.7, 8], "halfSize": [2, 2, 2]}]})");
+    const std::vector<std::string> few{"--probes", "4x4x4", "--frames", "1", "--aov", "direct"};
+    std::vector<std::string> within = few;
+    within.insert(within.end(), {"--sdf", file("solid.json")});
+    EXPECT_EQ(render(few).pixels, render(within).pixels);
+}
+
+TEST_F(Sdf, movesWithTheSceneOfAnAnimation) {
+    const ToolRun run = runTool({"render", "builtin:door", "-o", file("door%02d.png"), "--animate", "0:1:1", "--sdf",
+                                 file(), "--size", "16x9", "--probes", "3x3x3", "--rays", "16", "--frames", "2"});
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+}
+
+TEST_F(Sdf, noPrimitivesAreAWarning) {
+    writeText(file("none.json"), R"({"sdf": 1, "primitives": []})");
+    const ToolRun run = runTool(arguments({"--sdf", file("none.json"), "--frames", "1", "--probes", "3x3x3"}));
+    EXPECT_EQ(run.exitCode, 0);
+    EXPECT_THAT(run.err, HasSubstr("has no primitives: the rays of probes meet only the sky"));
+}
+
+TEST_F(Sdf, wrongFilesAreRefused) {
+    const auto refused = [&](const std::string& name, const std::string& words) {
+        expectRefused({"render", "builtin:cornell", "-o", file("b.png"), "--sdf", file(name)}, words, 1);
+    };
+    refused("absent.json", "absent.json");
+    writeText(file("typo.json"), R"({"sdf": 1, "primitives": [{"shape": "boks", "centre": [0, 0, 0]}]})");
+    refused("typo.json", "there is no shape 'boks'");
+    writeText(file("node.json"),
+              R"({"sdf": 1, "primitives": [{"shape": "plane", "centre": [0, 0, 0], "node": "nowhere"}]})");
+    refused("node.json", "rides on node 'nowhere', which the scene does not have");
+    expectRefused({"render", "builtin:cornell", "-o", file("b.png"), "--sdf", file(), "--stats", file()},
+                  "would overwrite", 1);
+}
+
+}  // namespace
+}  // namespace probegi::test
