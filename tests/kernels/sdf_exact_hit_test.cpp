@@ -1,4 +1,4 @@
-// Hits of a few solids. tests/tracer compares the tracers with each other and with meshes.
+// Hits of a few theSolids. tests/tracer compares the tracers with each other and with meshes.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -9,10 +9,10 @@
 namespace probegi::kernels {
 namespace {
 
-std::vector<SdfSolid> solids;
+std::vector<SdfSolid> theSolids;
 
 SdfSolid sdfSolid(int number) {
-    return solids[std::size_t(number)];
+    return theSolids[std::size_t(number)];
 }
 
 }  // namespace
@@ -25,10 +25,10 @@ namespace {
 
 // Cubes of 1 m along x, from these coordinates on.
 void placeCubes(std::initializer_list<float> begins) {
-    solids.clear();
+    theSolids.clear();
     for (const float begin : begins) {
-        solids.push_back(plainSolid(kSdfBox, vec3(0.5f)));
-        solids.back().centre.x = begin + 0.5f;
+        theSolids.push_back(plainSolid(kSdfBox, vec3(0.5f)));
+        theSolids.back().centre.x = begin + 0.5f;
     }
 }
 
@@ -41,10 +41,10 @@ struct Shot {
 Shot shoot(float from, float far = 1e30f, float near = 0) {
     Shot shot;
     const vec3 origin(from, 0, 0), direction(1, 0, 0);
-    const SdfFound found = sdfClosestHit(origin, near, direction, far, int(solids.size()), shot.within);
+    const SdfFound found = sdfClosestHit(origin, near, direction, far, int(theSolids.size()), shot.within);
     shot.distance = found.distance;
     shot.solid = found.solid;
-    shot.blocked = sdfIsBlocked(origin, near, direction, far, int(solids.size()));
+    shot.blocked = sdfIsBlocked(origin, near, direction, far, int(theSolids.size()));
     return shot;
 }
 
@@ -75,7 +75,7 @@ TEST(SdfExactHit, fromInsideTheWayOut) {
 }
 
 TEST(SdfExactHit, solidGroundHasNoWayOut) {
-    solids = {plainSolid(kSdfPlane, vec3(1.0f))};
+    theSolids = {plainSolid(kSdfPlane, vec3(1.0f))};
     bool within = false;
     EXPECT_EQ(sdfClosestHit({0, -1, 0}, 0, {0.6f, -0.8f, 0}, 1e30f, 1, within).solid, -1);
     EXPECT_FALSE(sdfIsBlocked({0, -1, 0}, 0, {0.6f, -0.8f, 0}, 1e30f, 1));

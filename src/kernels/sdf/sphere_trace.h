@@ -1,0 +1,75 @@
+// The paper's own way (SDFDDGI, section 3.3): sphere tracing of the union, whose distance is searched cluster by
+// cluster. Whoever includes this defines before:
+//     SdfSolid sdfSolid(int number);
+//     SdfCluster sdfCluster(int number);    together they have all solids
+#ifndef PROBEGI_KERNELS_SDF_SPHERE_TRACE_H
+#define PROBEGI_KERNELS_SDF_SPHERE_TRACE_H
+
+#include "kernels/sdf/cluster.h"
+#include "kernels/sdf/union_hit.h"
+
+KERNELS_BEGIN
+
+// Of over-relaxed steps (Balint and Valasek 2018, "Accelerating Sphere Tracing"): how much longer than the distance
+// they may be. 1 is plain sphere tracing.
+KERNEL_CONST float kSdfRelaxation = 1.5f;
+// A surface is met at this distance, as a share of the way and of the coordinates, and at least in metres: what floats
+// can tell.
+KERNEL_CONST float kSdfMeets = 1e-6f;
+KERNEL_CONST float kSdfMeetsAtLeast = 2e-6f;
+KERNEL_CONST int kSdfMostSteps = 1024;
+
+// Signed distance to the union, and its solid; -1 where none is nearer than `bound`, a distance known to be enough.
+KERNEL_FN SdfFound sdfNearest(vec3 point, float bound, int clusters) {
+    SdfFound nearest = sdfFoundNone(bound);
+    for (int c = 0; c < clusters; ++c) {
+        const SdfCluster cluster = sdfCluster(c);
+        if (!sdfMayBeNearer(cluster, point, nearest.distance)) continue;
+        for (int i = 0; i < cluster.count; ++i) {
+            const float distance = sdfDistance(sdfSolid(cluster.first + i), point);
+            if (distance < nearest.distance) {
+                nearest.distance = distance;
+                nearest.solid = cluster.first + i;
+            }
+        }
+    }
+    return nearest;
+}
+
+// Eq. 4, for any step: after `step` metres from a point at `distance` the distance is at most their sum. A little more,
+// since it must be found, not only bounded.
+KERNEL_FN float sdfBoundAfter(float distance, float step) {
+    return (distance + step) * 1.0001f + kSdfMeetsAtLeast;
+}
+
+KERNEL_FN float sdfMeetsAt(vec3 origin, float t) {
+    const float largest = max(abs(origin.x), max(abs(origin.y), abs(origin.z)));
+    return max(kSdfMeets * (largest + t), kSdfMeetsAtLeast);
+}
+
+// The first solid that a ray from outside meets; -1: none up to `far`. An over-relaxed step is taken back where the
+// spheres at its ends do not touch, since something may lie between them.
+KERNEL_FN SdfFound sdfSphereTraced(vec3 origin, float near, vec3 direction, float far, int clusters) {
+    float t = near;
+    float step = 0.0f;
+    SdfFound at = sdfNearest(origin + direction * t, kSdfFar, clusters);
+    for (int i = 0; i < kSdfMostSteps && t <= far && at.solid >= 0; ++i) {
+        if (at.distance <= sdfMeetsAt(origin, t)) {
+            at.distance = t;
+            return at;
+        }
+        step = kSdfRelaxation * at.distance;
+        SdfFound next = sdfNearest(origin + direction * (t + step), sdfBoundAfter(at.distance, step), clusters);
+        if (at.distance + next.distance < step) {
+            step = at.distance;
+            next = sdfNearest(origin + direction * (t + step), sdfBoundAfter(at.distance, step), clusters);
+        }
+        t += step;
+        at = next;
+    }
+    return sdfFoundNone(far);
+}
+
+KERNELS_END
+
+#endif
