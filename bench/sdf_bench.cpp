@@ -45,6 +45,7 @@ public:
         Ray first;
         while (rays.size() < kRays) {
             Ray ray;
+            ray.far = glm::length(m_bounds.size());
             ray.origin = anywhere();
             if (distanceTo(ray.origin) < 0.05f) continue;
             ray.direction = direction();

@@ -1,9 +1,10 @@
-// Primitives by exact intersection. Its block (SdfSceneTracer::block) has the addresses of their geometry and of what
-// they look like, and their number.
+// Primitives by exact intersection or, where there are clusters, by the paper's sphere tracing. Its block
+// (SdfSceneTracer::block) has the addresses of their geometry, of what they look like, and of clusters and numbers; and
+// how many primitives and clusters there are.
 #ifndef PROBEGI_TRACER_SDF_GLSL
 #define PROBEGI_TRACER_SDF_GLSL
 
-#include "kernels/sdf/primitive.h"
+#include "kernels/sdf/cluster.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SdfSolids {
     SdfSolid at[];
@@ -12,22 +13,62 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Sdf
     SdfPaint at[];
 };
 
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SdfClusterList {
+    SdfCluster at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SdfNumbers {
+    int at[];
+};
+
 SdfSolid sdfSolid(int number) {
     return SdfSolids(sceneConstants.tracer.addresses[0]).at[number];
 }
 
+SdfCluster sdfCluster(int number) {
+    return SdfClusterList(sceneConstants.tracer.addresses[2]).at[number];
+}
+
 #include "kernels/sdf/exact_hit.h"
+#include "kernels/sdf/sphere_trace.h"
+
+int sdfSolidCount() {
+    return int(sceneConstants.tracer.numbers[0]);
+}
+int sdfClusterCount() {
+    return int(sceneConstants.tracer.numbers[1]);
+}
+
+// Of a stored primitive, and back.
+int sdfGivenNumber(int solid) {
+    return sdfClusterCount() == 0 ? solid : SdfNumbers(sceneConstants.tracer.addresses[3]).at[solid];
+}
+int sdfStoredNumber(int primitive) {
+    return sdfClusterCount() == 0 ? primitive : SdfNumbers(sceneConstants.tracer.addresses[4]).at[primitive];
+}
+
+// Sphere tracing is for rays that begin outside.
+bool sdfIsSphereTraced(Ray ray, float near) {
+    if (sdfClusterCount() == 0 || !bvhRayIsValid(ray.origin, near, ray.direction, ray.far)) return false;
+    return sdfNearest(ray.origin + ray.direction * near, kSdfFar, sdfClusterCount()).distance > 0.0;
+}
 
 Hit closestHit(Ray ray) {
-    bool within;
-    const SdfFound found = sdfClosestHit(ray.origin, max(ray.near, 0.0), ray.direction, ray.far,
-                                         int(sceneConstants.tracer.numbers[0]), within);
+    const float near = max(ray.near, 0.0);
+    bool within = false;
+    SdfFound found;
+    if (sdfIsSphereTraced(ray, near))
+        found = sdfSphereTraced(ray.origin, near, ray.direction, ray.far, sdfClusterCount());
+    else
+        found = sdfClosestHit(ray.origin, near, ray.direction, ray.far, sdfSolidCount(), within);
     if (found.solid < 0) return Hit(kNoHitDistance, -1, -1, -1, vec2(0.0));
-    return Hit(found.distance, found.solid, within ? kSdfFromWithin : kSdfFront, -1, vec2(0.0));
+    return Hit(found.distance, sdfGivenNumber(found.solid), within ? kSdfFromWithin : kSdfFront, -1, vec2(0.0));
 }
 
 bool occluded(Ray ray) {
-    return sdfIsBlocked(ray.origin, max(ray.near, 0.0), ray.direction, ray.far, int(sceneConstants.tracer.numbers[0]));
+    const float near = max(ray.near, 0.0);
+    if (sdfIsSphereTraced(ray, near))
+        return sdfSphereTraced(ray.origin, near, ray.direction, ray.far, sdfClusterCount()).solid >= 0;
+    return sdfIsBlocked(ray.origin, near, ray.direction, ray.far, sdfSolidCount());
 }
 
 Surface surfaceAt(Ray ray, Hit hit, float spread) {
@@ -35,7 +76,7 @@ Surface surfaceAt(Ray ray, Hit hit, float spread) {
     const bool within = hit.geometry == kSdfFromWithin;
     Surface surface;
     surface.position = ray.origin + ray.direction * hit.distance;
-    const vec3 normal = sdfSurfaceNormal(sdfSolid(hit.primitive), surface.position);
+    const vec3 normal = sdfSurfaceNormal(sdfSolid(sdfStoredNumber(hit.primitive)), surface.position);
     surface.geometricNormal = within ? -normal : normal;
     surface.shadingNormal = bendTowards(surface.geometricNormal, -ray.direction);
     surface.albedo = paint.albedo;
