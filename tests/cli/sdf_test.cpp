@@ -85,6 +85,13 @@ TEST_F(Sdf, debugShowsEachPrimitiveInAColour) {
     expectRefused({"render", "builtin:cornell", "-o", file("b.png"), "--debug", "sdf"}, "--sdf FILE", 2);
 }
 
+TEST_F(Sdf, updatesAreMeasuredWithPrimitives) {
+    const ToolRun run = runTool({"bench", "builtin:cornell", "--sdf", file(), "--probes", "3x3x3", "--rays", "16",
+                                 "--size", "16x9", "--rounds", "1", "--no-growth"});
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    expectRefused({"bench", "--sdf", file(), "--backend", "vulkan"}, "--backend cpu only", 2);
+}
+
 // Pictures show the triangles, wherever the camera is.
 TEST_F(Sdf, aCameraInsideAPrimitiveSeesTheScene) {
     writeText(file("solid.json"), R"({"sdf": 1, "primitives": [

@@ -11,6 +11,7 @@
 #include "console/output.h"
 #include "console/parse.h"
 #include "scene_setup.h"
+#include "sdf_scene.h"
 
 namespace probegi::tool {
 
@@ -34,6 +35,7 @@ and the goals are those for a data-centre GPU. A missed goal is printed, it is n
 
 Example: probegi bench
 Example: probegi bench --backend vulkan --tracer bvh
+Example: probegi bench builtin:house --sdf house.sdf.json
 Example: probegi bench sponza.glb --sky 0.3,0.4,0.6 --probes 22x14x32 --threads 2 --json bench.json)";
 
 BenchPlan makePlan(const BenchOptions& options) {
@@ -91,12 +93,15 @@ void checkOptions(const CLI::App& command, const BenchOptions& options) {
     checkBackendOptions(command, options.backend);
     if (options.backend.kind == BackendKind::vulkan && options.growthMillion)
         throw CLI::ValidationError("--growth-million", "the growth table can be measured on --backend cpu only");
+    if (options.backend.kind == BackendKind::vulkan && !options.scene.sdf.empty())
+        throw CLI::ValidationError("--sdf", "primitives can be measured on --backend cpu only");
 }
 
 void addOptions(CLI::App& command, BenchOptions& options) {
     options.scene.scene = "builtin:atrium";
     addSceneOptions(command, options.scene);
     addBackendOptions(command, options.backend);
+    addSdfOption(command, options.scene);
     command.get_option("SCENE")->required(false)->capture_default_str();
     command.add_option("--rays", options.rays, "rays per probe and update, 8 to 4096")
         ->type_name("N")

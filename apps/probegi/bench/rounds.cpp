@@ -42,6 +42,8 @@ class Bench {
 public:
     static Result<std::unique_ptr<Bench>> create(const LoadedSetup& setup, const BenchPlan& plan);
 
+    /// What probe rays hit.
+    const Tracer& probes() const { return m_primitives ? *m_primitives : *m_tracer; }
     Result<void> warmUp();
     Result<BenchRound> round();
     Result<void> growth(BenchResult& result, const BenchProgress& progress) const;
@@ -61,6 +63,7 @@ private:
     Context m_all, m_one;
     RawEmbree m_raw, m_robust;
     std::unique_ptr<Tracer> m_tracer;
+    std::unique_ptr<MovableTracer> m_primitives;  // of --sdf; null: probe rays hit the triangles
     std::optional<Field> m_field, m_fieldAlone, m_fieldOfActive;
     std::vector<Ray> m_primary;
     std::vector<FieldQuery> m_points;
@@ -79,6 +82,11 @@ Result<std::unique_ptr<Bench>> Bench::create(const LoadedSetup& setup, const Ben
     auto tracer = makeEmbreeTracer(*all, *setup.scene, setup.pose);
     if (!tracer) return tracer.error();
     bench->m_tracer = std::move(*tracer);
+    if (setup.sdf) {
+        auto primitives = makeSdfTracer(*all, *setup.sdf, *setup.scene, setup.pose);
+        if (!primitives) return primitives.error();
+        bench->m_primitives = std::move(*primitives);
+    }
     FieldDesc desc;
     desc.volumes = setup.volumes;
     desc.raysPerProbe = plan.raysPerProbe;
@@ -101,7 +109,7 @@ Result<std::unique_ptr<Bench>> Bench::create(const LoadedSetup& setup, const Ben
 
 Result<void> Bench::warmUp() {
     for (Field* field : {&*m_field, &*m_fieldOfActive})
-        if (const auto done = field->converge(*m_tracer, m_setup.lighting, 1e-6f, kWarmUpUpdates); !done)
+        if (const auto done = field->converge(probes(), m_setup.lighting, 1e-6f, kWarmUpUpdates); !done)
             return done.error();
     return round().transform([](const BenchRound&) {});
 }
@@ -113,10 +121,10 @@ Result<BenchRound> Bench::round() {
         round.floor = m_raw.trace(rays);
         round.robustFloor = m_robust.trace(rays);
     }
-    const auto times = m_field->update(*m_tracer, m_setup.lighting);
+    const auto times = m_field->update(probes(), m_setup.lighting);
     if (!times) return times.error();
     round.update = *times;
-    const auto ofActive = m_fieldOfActive->update(*m_tracer, m_setup.lighting);
+    const auto ofActive = m_fieldOfActive->update(probes(), m_setup.lighting);
     if (!ofActive) return ofActive.error();
     round.updateOfActive = ofActive->total;
 
@@ -134,7 +142,7 @@ Result<BenchRound> Bench::round() {
     if (!picture) return picture.error();
     round.picture = millisecondsSince(start);
 
-    const auto alone = m_fieldAlone->update(*m_tracer, m_setup.lighting);
+    const auto alone = m_fieldAlone->update(probes(), m_setup.lighting);
     if (!alone) return alone.error();
     round.updateAlone = alone->total;
     return round;
@@ -179,7 +187,7 @@ Result<void> Bench::growth(BenchResult& result, const BenchProgress& progress) c
             const int repeats = std::max(1, int(kLeastGrowthRays / rays));
             const auto start = Clock::now();
             for (int k = 0; k < repeats; ++k)
-                if (const auto done = fields[i].update(*m_tracer, m_setup.lighting); !done) return done.error();
+                if (const auto done = fields[i].update(probes(), m_setup.lighting); !done) return done.error();
             if (round > 0) result.growth[i].ms.push_back(millisecondsSince(start) / repeats);
         }
     }
