@@ -7,7 +7,7 @@ usage() {
 Usage: scripts/mutate.sh [--seed N] [--count N] [--only PATH]... [--jobs N] [--list]
 
 Makes small changes (mutants: + becomes -, < becomes <=, 0.5f is doubled, a term is dropped, ...) to src/kernels,
-src/cpu, src/field and src/bvh, one at a time, and runs the fast unit tests on each. Prints the share of mutants that
+src/cpu, src/field, src/bvh and src/sdf, one at a time, and runs the fast unit tests on each. Prints the share of mutants that
 were detected, how many each test detected, and all that survived. The exit code is 1 if the share is below 90 %.
 
   --seed N     chooses the mutants; the same seed, count and code give the same ones (default 1)
@@ -26,7 +26,7 @@ TEXT
 
 # Unit test programs that take seconds, fastest first. Left out: cli, io, report, vulkan and others that do not test
 # these folders; analytic, backend, reference and render, which take minutes.
-programs=(kernels field geometry bvh cpu tracer)
+programs=(kernels sdf field geometry bvh cpu tracer)
 # Tests to skip: those that take longer than all the others, or need scene files.
 declare -A filter=(
     [bvh]='-EmbreeAgreement.*'
@@ -61,7 +61,7 @@ while (($# > 0)); do
 done
 ((count > 0 && jobs > 0)) || die "--count and --jobs must be at least 1"
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-((${#only[@]})) || only=(src/kernels src/cpu src/field src/bvh)
+((${#only[@]})) || only=(src/kernels src/cpu src/field src/bvh src/sdf)
 scratch=$PWD/build/mutate
 results=$scratch/results
 unset PROBEGI_SCENES
