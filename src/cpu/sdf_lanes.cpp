@@ -101,7 +101,11 @@ HWY_INLINE Packet load(std::span<const Ray> rays) {
     p.inverse = inverseOf(p.direction);
     p.near = row(3);
     p.far = row(7);
-    p.far = hn::IfThenElse(usable(p), hn::Min(p.far, all(kernels::kSdfFar)), all(-1.0f));
+    const Lanes use = usable(p);
+    p.far = hn::IfThenElse(use, hn::Min(p.far, all(kernels::kSdfFar)), all(-1.0f));
+    // What is not a number must not spoil the bounds of the others' origins.
+    p.origin = {hn::IfThenElseZero(use, p.origin.x), hn::IfThenElseZero(use, p.origin.y),
+                hn::IfThenElseZero(use, p.origin.z)};
     return p;
 }
 

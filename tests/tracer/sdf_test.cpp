@@ -122,6 +122,23 @@ TEST_P(Sdf, uselessRaysHitNothing) {
     EXPECT_FALSE(shoot(*tracer, {{-5, 0, 0}, 0, {1, 0, 0}, kNan}).blocked);
 }
 
+TEST_P(Sdf, uselessRaysDoNotHarmOthers) {
+    const auto tracer = make({{sdfBox({1, -1, -1}, {2, 1, 1})}});
+    for (const float bad : {kNan, kInfinity, -kInfinity}) {
+        std::vector<Ray> rays(64, rayAlong({0, 0, 0}, {1, 0, 0}));
+        rays[5].origin.x = rays[20].origin.y = rays[40].far = rays[50].direction.z = bad;
+        std::vector<Hit> hits(rays.size());
+        std::vector<std::uint8_t> blocked(rays.size());
+        tracer->closestHits(rays, hits).value();
+        tracer->occluded(rays, blocked).value();
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if (i == 5 || i == 20 || i == 40 || i == 50) continue;
+            EXPECT_EQ(hits[i].distance, 1) << i;
+            EXPECT_EQ(blocked[i], 1) << i;
+        }
+    }
+}
+
 TEST_P(Sdf, noPrimitivesAreNeverHit) {
     const auto tracer = make({});
     const Shot shot = shoot(*tracer, rayAlong({0, 0, 0}, {1, 0, 0}));
