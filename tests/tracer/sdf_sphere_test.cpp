@@ -80,6 +80,25 @@ TEST(SphereTracedSdf, hitsWhatIsHitExactly) {
     }
 }
 
+TEST(GpuSceneDesc, primitivesAndTheirTracerComeTogether) {
+    const SdfScene sdf;
+    const Scene scene;
+    for (const bool primitives : {false, true}) {
+        vulkan::GpuSceneDesc desc;
+        if (primitives) desc.sdf = &sdf;
+        if (!primitives) desc.tracer = TracerKind::sdf;
+        const auto made = vulkan::GpuScene::create(makeContext(), testDevice(), scene, poseAt(scene), desc);
+        ASSERT_FALSE(made);
+        EXPECT_EQ(made.error().code, ErrorCode::invalidArgument);
+    }
+    vulkan::GpuSceneDesc both;
+    both.tracer = TracerKind::sdf;
+    both.sdf = &sdf;
+    const auto made = vulkan::GpuScene::create(makeContext(), testDevice(), scene, poseAt(scene), both);
+    ASSERT_TRUE(made);
+    EXPECT_EQ(made->tracer(), TracerKind::sdf);
+}
+
 }  // namespace
 }  // namespace probegi::test
 #endif
