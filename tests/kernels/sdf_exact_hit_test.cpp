@@ -56,6 +56,10 @@ TEST(SdfExactHit, fromOutsideTheFirstEntry) {
     EXPECT_TRUE(shoot(0).blocked);
     EXPECT_EQ(shoot(0, 1.9f).solid, -1);
     EXPECT_FALSE(shoot(0, 1.9f).blocked);
+    EXPECT_TRUE(shoot(0, 2).blocked) << "near and far are included";
+    EXPECT_TRUE(shoot(0, 3, 2).blocked);
+    EXPECT_EQ(shoot(0, 2).solid, 1);
+    EXPECT_EQ(shoot(0, 3, 2).distance, 2);
     EXPECT_EQ(shoot(3.5f).solid, 0);
     EXPECT_EQ(shoot(0, 1e30f, 3.5f).distance, 5);
     EXPECT_EQ(shoot(10).solid, -1);

@@ -121,6 +121,16 @@ TEST(SdfRaySpan, directionsAlongAxes) {
     }
 }
 
+// What is parallel to a surface is within it up to the surface itself.
+TEST(SdfRaySpan, alongTheSurface) {
+    const SdfSpan ground = sdfRaySpan(plainSolid(kSdfPlane, {}), {3, 0, 1}, {1, 0, 0});
+    EXPECT_EQ(ground.entry, -kSdfFar);
+    EXPECT_EQ(ground.exit, kSdfFar);
+    const SdfSpan side = sdfRaySpan(plainSolid(kSdfCylinder, {1, 2, 9}), {1, -5, 0}, {0, 1, 0});
+    EXPECT_NEAR(side.entry, 3, 1e-6);
+    EXPECT_NEAR(side.exit, 7, 1e-6);
+}
+
 TEST(SdfRaySpan, spansOfBothAndOfEither) {
     const SdfSpan a = sdfSpan(1, 3), b = sdfSpan(2, 5);
     EXPECT_EQ(sdfBothSpans(a, b).entry, 2);

@@ -120,6 +120,7 @@ TEST(SdfSphereTrace, endsAtFar) {
     theSolids = {plainSolid(kSdfSphere, vec3(1.0f))};
     theClusters = {{vec3(0.0f), 1, 0, 1}};
     EXPECT_NEAR(sdfSphereTraced({-5, 0, 0}, 0, {1, 0, 0}, 5, 1).distance, 4, 1e-4);
+    EXPECT_NEAR(sdfSphereTraced({-5, 0, 0}, 3, {1, 0, 0}, 5, 1).distance, 4, 1e-4) << "begins nearer";
     EXPECT_EQ(sdfSphereTraced({-5, 0, 0}, 0, {1, 0, 0}, 3.9f, 1).solid, -1);
     EXPECT_EQ(sdfSphereTraced({-5, 0, 0}, 0, {-1, 0, 0}, 1e30f, 1).solid, -1);
     EXPECT_EQ(sdfSphereTraced({-5, 0, 0}, 0, {1, 0, 0}, 5, 0).solid, -1);
