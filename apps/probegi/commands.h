@@ -13,5 +13,6 @@ void addDevicesCommand(CLI::App& app, int& exitCode);
 void addBenchCommand(CLI::App& app, int& exitCode);
 void addReportCommand(CLI::App& app, int& exitCode);
 void addAuditCommand(CLI::App& app, int& exitCode);
+void addFitCommand(CLI::App& app, int& exitCode);
 
 }  // namespace probegi::tool

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-#include "bench/points.h"
+#include "camera_rays.h"
 #include "probe_balls.h"
 #include "probegi/measure.h"
 #include "probegi/tracer.h"
@@ -20,14 +20,6 @@ namespace probegi::tool {
 namespace {
 
 constexpr float kGrey = 0.45f;
-
-// Hues that stay apart however many there are.
-glm::vec3 colourOf(std::size_t number) {
-    constexpr float kStrength = 0.85f, kBrightness = 0.95f;
-    const float hue = float(number % 4096) * (1.0f / std::numbers::phi_v<float>);
-    const glm::vec3 wheel = glm::abs(glm::fract(hue + glm::vec3(0.0f, 2.0f / 3.0f, 1.0f / 3.0f)) * 6.0f - 3.0f) - 1.0f;
-    return kBrightness * glm::mix(glm::vec3(1.0f), glm::clamp(wheel, 0.0f, 1.0f), kStrength);
-}
 
 glm::vec3 volumesAt(const Field& field, const ShownPoint& point) {
     glm::vec3 colour(0.0f);
@@ -109,10 +101,6 @@ glm::vec3 ageColour(const ShownProbe& probe) {
 glm::vec3 confidenceColour(const ShownProbe& probe) {
     return isActive(probe.state) ? trafficColour(std::sqrt(std::min(1.0f, probe.state.confidence())))
                                  : glm::vec3(kGrey);
-}
-
-float shadeOf(const Surface& surface, const Ray& ray) {
-    return 0.4f + 0.6f * std::abs(glm::dot(surface.shadingNormal, ray.direction));
 }
 
 // All probes as balls; those that are off stand in walls.

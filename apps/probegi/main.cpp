@@ -52,6 +52,7 @@ int run(int argc, char** argv) {
     addRenderCommand(app, exitCode);
     addReportCommand(app, exitCode);
     addAuditCommand(app, exitCode);
+    addFitCommand(app, exitCode);
     addCompareCommand(app, exitCode);
     addInfoCommand(app, exitCode);
     addDevicesCommand(app, exitCode);

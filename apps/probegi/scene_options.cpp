@@ -98,6 +98,13 @@ void addSceneArgument(CLI::App& command, SceneOptions& options) {
     addUnpackLimit(command, options.limits);
 }
 
+void addThreadsOption(CLI::App& command, SceneOptions& options) {
+    command.add_option("--threads", options.threads, "worker threads, 0 to 1024; 0: all; never changes the result")
+        ->type_name("N")
+        ->check(inRange(0, 1024))
+        ->capture_default_str();
+}
+
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
     addSceneArgument(command, options);
     addCameraOptions(command, options);
@@ -111,10 +118,7 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         ->type_name("auto|scene|FACTOR")
         ->check(parsedBy(parseExposure))
         ->capture_default_str();
-    command.add_option("--threads", options.threads, "worker threads, 0 to 1024; 0: all; never changes the result")
-        ->type_name("N")
-        ->check(inRange(0, 1024))
-        ->capture_default_str();
+    addThreadsOption(command, options);
 }
 
 }  // namespace probegi::tool

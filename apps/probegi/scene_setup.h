@@ -44,6 +44,9 @@ void addSceneOptions(CLI::App& command, SceneOptions& options);
 /// Adds only SCENE, the built-in scenes' parameters and --time-of-scene.
 void addSceneArgument(CLI::App& command, SceneOptions& options);
 
+/// Adds --threads.
+void addThreadsOption(CLI::App& command, SceneOptions& options);
+
 /// A scene ready to be traced, with the overriding options applied.
 struct LoadedSetup {
     std::unique_ptr<Scene> scene;  ///< at a fixed address, which the tracer keeps

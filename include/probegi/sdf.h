@@ -51,6 +51,8 @@ struct SdfScene {
 };
 
 constexpr int kMaxSdfPrimitives = 4096;
+/// Bytes of geometry of a primitive on a GPU, without colours.
+constexpr std::size_t kSdfPrimitiveBytes = 48;
 
 /// Checks every value. Errors: malformed, naming the primitive and the fault.
 PROBEGI_API Result<void> validate(const SdfScene& sdf);

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "camera_rays.h"
 #include "probegi/measure.h"
 
 namespace probegi::tool {
@@ -13,21 +14,6 @@ namespace {
 
 constexpr double kAlmostLight = 0.01;  // of the mean, added to both lights that are compared
 constexpr double kAllStops = 2;        // by which light is wrong where the colour is at its strongest
-
-std::vector<Ray> primaryRays(const PlacedCamera& camera, int width, int height) {
-    const glm::vec3 right = glm::cross(camera.forward, camera.up);
-    const float scale = 2 * std::tan(0.5f * camera.yfov) / float(height);
-    std::vector<Ray> rays;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            Ray ray;
-            ray.origin = camera.position;
-            ray.direction = glm::normalize(camera.forward + (float(x) + 0.5f - 0.5f * float(width)) * scale * right -
-                                           (float(y) + 0.5f - 0.5f * float(height)) * scale * camera.up);
-            rays.push_back(ray);
-        }
-    return rays;
-}
 
 double meanLight(const SeenLeaks& seen) {
     double sum = 0;

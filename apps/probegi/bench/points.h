@@ -8,7 +8,6 @@
 namespace probegi::tool {
 
 /// Camera rays through the pixels' centres, row by row.
-std::vector<Ray> primaryRays(const PlacedCamera& camera, int width, int height);
 
 /// The queries of a picture's hits, in the order of its rays. Errors: those of the tracer.
 Result<std::vector<FieldQuery>> picturePoints(const Tracer& tracer, std::span<const Ray> rays);

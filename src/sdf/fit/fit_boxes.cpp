@@ -19,9 +19,9 @@ constexpr float kThick = 2;              ///< first steps that a box is made thi
 
 }  // namespace
 
-FitBoxes::FitBoxes(const Context& context, std::span<const FitRay> rays, std::span<const glm::mat3> frames,
-                   const FitCost& cost)
-    : m_context(context), m_cost(cost), m_frames(frames.size()) {
+FitBoxes::FitBoxes(const Context& context, std::span<const FitRay> rays, std::span<const float> ends,
+                   std::span<const glm::mat3> frames, const FitCost& cost)
+    : m_context(context), m_cost(cost), m_frames(frames.size()), m_ends(ends.begin(), ends.end()) {
     for (std::size_t f = 0; f < frames.size(); ++f) {
         const std::vector<FitRay> turned = raysIn(frames[f], rays);
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -68,7 +68,8 @@ void FitBoxes::meetAll(std::size_t begin, const FitBox& box, std::span<float> ou
 }
 
 void FitBoxes::findNearest(std::size_t ray) {
-    float first = kFitSky, second = kFitSky;
+    float first = m_ends.empty() ? kFitSky : m_ends[ray];
+    float second = kFitSky;
     int firstBox = -1, secondBox = -1;
     for (std::size_t b = 0; b < m_boxes.size(); ++b) {
         const float distance = meets(ray, m_boxes[b]);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <cmath>
@@ -14,19 +16,17 @@ namespace probegi {
 
 /// What it costs that a ray ends at `distance` among the boxes rather than at the scene's surface.
 struct FitCost {
-    float cap = 1;   ///< metres: an error is no worse than this one, of cost 1
-    int mode = 0;
-    float leak = 10;  ///< of a ray that leaves where it should not
-    float sky = 3;    ///< of a ray that hits what is not there, or begins inside a box
+    float usual = 0.1f;     ///< metres: errors grow dear up to about this one, and ever less beyond
+    float leak = 10;        ///< of a ray that leaves where it should not
+    float sky = 3;          ///< of a ray that meets what is not there, or begins inside a box
     float grazing = 0.25f;  ///< least cosine by which errors along the ray count
 
     float operator()(float wanted, float cosine, float distance) const noexcept {
         if (wanted >= kFitSky) return distance >= kFitSky ? 0.0f : sky;
         if (distance >= kFitSky) return leak;
         if (distance <= 0) return sky;
-        const float error = distance > wanted ? distance - wanted : wanted - distance;
-        const float across = error * (cosine > grazing ? cosine : grazing);
-        return mode == 0 ? (across < cap ? across / cap : 1.0f) : mode == 1 ? across / (across + cap) : 0.5f*std::log2(1 + across / cap);
+        const float error = std::abs(distance - wanted) * std::max(cosine, grazing);
+        return 0.5f * std::log2(1 + error / usual);
     }
 };
 
@@ -34,9 +34,10 @@ struct FitCost {
 /// boxes, so that what it would meet with another in the place of one is known by a single test.
 class FitBoxes {
 public:
-    /// The rays are in the world, or whatever `frames` are the axes of.
-    FitBoxes(const Context& context, std::span<const FitRay> rays, std::span<const glm::mat3> frames,
-             const FitCost& cost);
+    /// The rays are in the world, as are the axes of `frames`. `ends`: where rays end even without boxes, metres, 0 for
+    /// those that begin inside something; empty: nowhere.
+    FitBoxes(const Context& context, std::span<const FitRay> rays, std::span<const float> ends,
+             std::span<const glm::mat3> frames, const FitCost& cost);
 
     std::span<const FitBox> boxes() const noexcept { return m_boxes; }
     /// Replaces all boxes; `step`: by how much their faces are moved at first, metres.
@@ -99,9 +100,11 @@ private:
     Context m_context;
     FitCost m_cost;
     std::vector<FrameRays> m_frames;
+    std::vector<float> m_ends;  ///< empty, or kFitSky for rays that end nowhere
     std::vector<float> m_wanted;
     std::vector<float> m_cosine;
-    // Of each ray the two nearest boxes that it meets; kFitSky and -1: there is none.
+    // Of each ray the two nearest boxes that it meets; kFitSky and -1: there is none. -1 with a distance:
+    // m_ends.
     std::array<std::vector<float>, 2> m_distance;
     std::array<std::vector<std::int32_t>, 2> m_box;
     std::vector<FitBox> m_boxes;

@@ -131,7 +131,7 @@ Result<FitRays> walkThrough(const Context& context, const Tracer& tracer, std::s
             const float length = hit.valid() ? hit.distance : leaves(bounds, ray);
             if (out.rays.size() < count) {
                 FitSurface seen;
-                if (hit.valid()) seen = {surface.geometricNormal, surface.albedo, surface.emission};
+                if (hit.valid()) seen = {surface.geometricNormal, surface.albedo, surface.emission, surface.material};
                 const float cosine =
                     hit.valid() ? std::min(std::abs(glm::dot(surface.geometricNormal, ray.direction)), 1.0f) : 1.0f;
                 out.rays.push_back({ray.origin, hit.valid() ? hit.distance : kFitSky, ray.direction, cosine});

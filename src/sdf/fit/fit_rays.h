@@ -24,6 +24,7 @@ struct FitSurface {
     glm::vec3 normal{0.0f};  ///< geometric; zero for the sky
     glm::vec3 albedo{0.0f};
     glm::vec3 emission{0.0f};
+    std::int32_t material = -1;  ///< as Surface::material
 };
 
 /// Rays in the world, and what they meet.

@@ -18,6 +18,7 @@ constexpr int kSeeds = 64;                  ///< growing boxes of which the best
 constexpr int kMergeTrials = 96;            ///< pairs of boxes that might be one
 constexpr int kMostSwapped = 4;             ///< boxes a round
 constexpr float kWhim = 0.6f;               ///< by how much worths are varied at random when boxes are taken away
+constexpr double kLeastWorth = 5e-5;       ///< by which a box must lower the mean cost
 constexpr int kFirstSweeps = 8;
 constexpr int kSweeps = 4;
 constexpr int kLastSweeps = 6;
@@ -35,7 +36,7 @@ class Search {
 public:
     Search(const Context& context, const FitSearch& search)
         : m_context(context), m_search(search), m_state(kernels::hashUint(search.seed)), m_some(someRays()),
-          m_fit(context, m_some, search.frames, search.cost) {
+          m_fit(context, m_some, m_ends, search.frames, search.cost) {
         for (std::size_t f = 0; f < search.frames.size(); ++f) {
             m_rays.push_back(raysIn(search.frames[f], m_some));
             m_grids.emplace_back(m_rays[f], search.resolution, int(f));
@@ -45,7 +46,8 @@ public:
     void build() {
         fillGrids([&](std::size_t ray) {
             const float distance = m_some[ray].distance;
-            return Wanted{distance, distance < kFitSky ? 1.0f : 0.0f};
+            const bool ends = distance < kFitSky && (m_ends.empty() || m_ends[ray] > distance);
+            return Wanted{distance, ends ? 1.0f : 0.0f};
         });
         std::vector<FitBox> boxes = bestBoxes(int(kOverbuild * float(m_search.most)) + 1);
         m_fit.set(std::move(boxes), step());
@@ -85,14 +87,16 @@ public:
 
     std::vector<FitBox> placed() {
         sweeps(kSweeps);
-        FitBoxes all(m_context, m_search.rays, m_search.frames, m_search.cost);
+        FitBoxes all(m_context, m_search.rays, m_search.ends, m_search.frames, m_search.cost);
         all.set({m_fit.boxes().begin(), m_fit.boxes().end()}, 0.5f * step());
         for (int i = 0; i < kLastSweeps; ++i) all.sweep();
-        std::vector<FitBox> boxes;
-        const std::vector<double> worth = all.worth();
-        for (std::size_t i = 0; i < worth.size(); ++i)
-            if (worth[i] > 0) boxes.push_back(all.boxes()[i]);
-        return boxes;
+        for (;;) {
+            const std::vector<double> worth = all.worth();
+            const auto least = std::min_element(worth.begin(), worth.end());
+            if (least == worth.end() || *least > kLeastWorth) break;
+            all.remove(std::size_t(least - worth.begin()));
+        }
+        return {all.boxes().begin(), all.boxes().end()};
     }
 
 private:
@@ -107,6 +111,7 @@ private:
         for (std::size_t i = 0; i < m_search.rays.size(); i += stride) {
             some.push_back(m_search.rays[i]);
             m_normals.push_back(m_search.surfaces[i].normal);
+            if (!m_search.ends.empty()) m_ends.push_back(m_search.ends[i]);
         }
         return some;
     }
@@ -199,6 +204,7 @@ private:
     const FitSearch& m_search;
     std::uint32_t m_state;
     std::vector<glm::vec3> m_normals;  ///< of the ends of m_some
+    std::vector<float> m_ends;         ///< of m_some
     std::vector<FitRay> m_some;
     std::vector<std::vector<FitRay>> m_rays;  ///< m_some in each frame
     std::vector<FitVoxels> m_grids;

@@ -14,6 +14,7 @@ namespace probegi {
 struct FitSearch {
     std::span<const FitRay> rays;  ///< in the world
     std::span<const FitSurface> surfaces;
+    std::span<const float> ends;  ///< as those of FitBoxes
     std::span<const glm::mat3> frames;
     FitCost cost;
     int most = 64;        ///< boxes
