@@ -8,16 +8,16 @@
 namespace probegi::tool {
 
 std::vector<Ray> primaryRays(const PlacedCamera& camera, int width, int height) {
-    const glm::vec3 right = glm::cross(camera.forward, camera.up);
-    const float scale = 2 * std::tan(0.5f * camera.yfov) / float(height);
+    const float pixel = 2.0f * std::tan(0.5f * camera.yfov) / float(height);
+    const glm::vec3 right = pixel * glm::cross(camera.forward, camera.up), up = pixel * camera.up;
     std::vector<Ray> rays;
+    rays.reserve(std::size_t(width) * std::size_t(height));
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            Ray ray;
-            ray.origin = camera.position;
-            ray.direction = glm::normalize(camera.forward + (float(x) + 0.5f - 0.5f * float(width)) * scale * right -
-                                           (float(y) + 0.5f - 0.5f * float(height)) * scale * camera.up);
-            rays.push_back(ray);
+            const float fromMiddleX = float(x) + 0.5f - 0.5f * float(width);
+            const float fromMiddleY = 0.5f * float(height) - float(y) - 0.5f;
+            const glm::vec3 direction = camera.forward + fromMiddleX * right + fromMiddleY * up;
+            rays.push_back({camera.position, 0.0f, glm::normalize(direction)});
         }
     return rays;
 }

@@ -14,6 +14,7 @@
 #include "probegi/result.h"
 #include "probegi/scene.h"
 #include "probegi/sdf.h"
+#include "probegi/sdf_fit.h"
 #include "probegi/shapes.h"
 #include "probegi/snapshot.h"
 #include "probegi/tracer.h"

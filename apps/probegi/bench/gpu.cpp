@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "bench/points.h"
+#include "camera_rays.h"
 #include "render_stats.h"
 #include "vulkan_device.h"
 

@@ -5,6 +5,7 @@
 
 #include "bench/floor.h"
 #include "bench/points.h"
+#include "camera_rays.h"
 #include "probegi/render.h"
 #include "render_stats.h"
 

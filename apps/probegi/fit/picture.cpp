@@ -5,6 +5,7 @@
 #include <new>
 
 #include "camera_rays.h"
+#include "probegi/measure.h"
 
 namespace probegi::tool {
 
