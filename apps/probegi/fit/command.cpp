@@ -98,13 +98,11 @@ Result<void> claimAll(const FitOptions& options, Outputs& outputs) {
 }
 
 Result<void> writePicture(const Context& context, const FitOptions& options, const Scene& scene, const ScenePose& pose,
-                          const Tracer& tracer, const SdfScene& sdf) {
+                          const PlacedCamera& camera, const Tracer& tracer, const SdfScene& sdf) {
     const PictureSize size = *parseSize(options.size);
-    const auto camera = cameraOf(pose, options.camera);
-    if (!camera) return camera.error();
     const auto primitives = makeSdfTracer(context, sdf, scene, pose);
     if (!primitives) return primitives.error();
-    const auto image = drawPrimitives(tracer, **primitives, *camera, size.width, size.height);
+    const auto image = drawPrimitives(tracer, **primitives, camera, size.width, size.height);
     if (!image) return image.error();
     return writeImage(options.picture, *image);
 }
@@ -141,6 +139,8 @@ Result<void> fit(const FitOptions& options) {
         if (!input->empty() && *input != options.output) inputs.push_back(*input);
     if (auto apart = outputs.keepApartFrom(inputs); !apart) return apart;
     const ScenePose pose = poseAt(loaded->scene, options.scene.timeOfScene);
+    const auto camera = cameraOf(pose, options.camera);
+    if (!camera) return camera.error();
     const auto tracer = makeEmbreeTracer(*context, loaded->scene, pose);
     if (!tracer) return tracer.error();
 
@@ -151,11 +151,10 @@ Result<void> fit(const FitOptions& options) {
     if (!options.output.empty())
         if (auto written = saveSdf(options.output, found->sdf); !written) return written;
     if (!options.picture.empty())
-        if (auto drawn = writePicture(*context, options, loaded->scene, pose, **tracer, found->sdf); !drawn)
+        if (auto drawn = writePicture(*context, options, loaded->scene, pose, *camera, **tracer, found->sdf); !drawn)
             return drawn;
     if (!options.stats.empty())
-        if (auto written =
-                writeText(options.stats, jsonText(statsOf(options, found->sdf, found->accuracy, seconds)));
+        if (auto written = writeText(options.stats, jsonText(statsOf(options, found->sdf, found->accuracy, seconds)));
             !written)
             return written;
     std::error_code none;
@@ -179,7 +178,8 @@ void addFitOptions(CLI::App& command, FitOptions& options) {
         ->type_name("N")
         ->check(inRange(1000, 16'000'000))
         ->capture_default_str();
-    command.add_option("--rounds", options.desc.rounds, "rounds of search, 0 to 10000: more take longer, and fit better")
+    command
+        .add_option("--rounds", options.desc.rounds, "rounds of search, 0 to 10000: more take longer, and fit better")
         ->type_name("N")
         ->check(inRange(0, 10'000))
         ->capture_default_str();
@@ -188,8 +188,9 @@ void addFitOptions(CLI::App& command, FitOptions& options) {
         ->check(wholeNumber())
         ->capture_default_str();
     command
-        .add_option("--picture", options.picture,
-                    "the primitives in colours over the scene in grey; red: no primitive stands for it (.png or .exr)")
+        .add_option(
+            "--picture", options.picture,
+            "the primitives in colours over the scene in grey; white: no primitive stands for it (.png or .exr)")
         ->type_name("FILE");
     command.add_option("--camera", options.camera, "of the picture: number of the scene's camera")
         ->type_name("N")
@@ -205,7 +206,8 @@ void addFitOptions(CLI::App& command, FitOptions& options) {
 }  // namespace
 
 void addFitCommand(CLI::App& app, int& exitCode) {
-    CLI::App* command = app.add_subcommand("fit", "find simple solids that stand for a scene, for probe rays (SDFDDGI)");
+    CLI::App* command =
+        app.add_subcommand("fit", "find simple solids that stand for a scene, for probe rays (SDFDDGI)");
     const auto options = std::make_shared<FitOptions>();
     addSceneArgument(*command, options->scene);
     addFitOptions(*command, *options);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kBatch = 65536;  // bounds the memory for surfaces
 constexpr float kOver = 0.7f;          // share of the primitives' colour over the scene's grey
-constexpr glm::vec3 kMissing(0.9f, 0.08f, 0.05f);
+constexpr glm::vec3 kMissing(1.0f);
 
 /// What one tracer shows.
 struct Seen {
@@ -30,8 +30,8 @@ Result<Seen> look(const Tracer& tracer, std::span<const Ray> rays) {
 
 }  // namespace
 
-Result<HdrImage> drawPrimitives(const Tracer& scene, const Tracer& primitives,
-                                const PlacedCamera& camera, int width, int height) try {
+Result<HdrImage> drawPrimitives(const Tracer& scene, const Tracer& primitives, const PlacedCamera& camera, int width,
+                                int height) try {
     HdrImage image(width, height);
     const std::vector<Ray> rays = primaryRays(camera, width, height);
     for (std::size_t begin = 0; begin < rays.size(); begin += kBatch) {
@@ -48,7 +48,7 @@ Result<HdrImage> drawPrimitives(const Tracer& scene, const Tracer& primitives,
                 const glm::vec3 colour = colourOf(std::size_t(solids->hits[i].primitive));
                 pixel = glm::mix(pixel, colour * shadeOf(solids->surfaces[i], part[i]), kOver);
             } else if (there) {
-                pixel = kMissing * (0.3f + grey);
+                pixel = kMissing * (0.5f + 0.6f * grey);
             }
             image.pixels[begin + i] = pixel;
         }

@@ -45,8 +45,7 @@ FitBoxes::FitBoxes(const Context& context, std::span<const FitRay> rays, std::sp
 float FitBoxes::meets(glm::vec3 origin, glm::vec3 inverse, const FitBox& box) noexcept {
     const glm::vec3 a = (box.lower - origin) * inverse;
     const glm::vec3 b = (box.upper - origin) * inverse;
-    const float enters =
-        std::max(std::max(std::min(a.x, b.x), std::min(a.y, b.y)), std::max(std::min(a.z, b.z), 0.0f));
+    const float enters = std::max(std::max(std::min(a.x, b.x), std::min(a.y, b.y)), std::max(std::min(a.z, b.z), 0.0f));
     const float leaves = std::min(std::min(std::max(a.x, b.x), std::max(a.y, b.y)), std::max(a.z, b.z));
     return enters <= leaves ? enters : kFitSky;
 }
@@ -63,8 +62,7 @@ void FitBoxes::meetAll(std::size_t begin, const FitBox& box, std::span<float> ou
     const float *ix = f.inverse[0].data() + begin, *iy = f.inverse[1].data() + begin, *iz = f.inverse[2].data() + begin;
     float* to = out.data();
     const std::size_t count = out.size();
-    for (std::size_t i = 0; i < count; ++i)
-        to[i] = meets({ox[i], oy[i], oz[i]}, {ix[i], iy[i], iz[i]}, box);
+    for (std::size_t i = 0; i < count; ++i) to[i] = meets({ox[i], oy[i], oz[i]}, {ix[i], iy[i], iz[i]}, box);
 }
 
 void FitBoxes::findNearest(std::size_t ray) {
@@ -227,7 +225,8 @@ double FitBoxes::sweep() {
     const std::vector<FitBox> old = m_boxes;
     for (std::size_t b = 0; b < m_boxes.size(); ++b) {
         if (better[b].lower == old[b].lower && better[b].upper == old[b].upper) continue;
-        const FitBox both{glm::min(old[b].lower, better[b].lower), glm::max(old[b].upper, better[b].upper), old[b].frame};
+        const FitBox both{glm::min(old[b].lower, better[b].lower), glm::max(old[b].upper, better[b].upper),
+                          old[b].frame};
         const std::vector<Touched> rays = touchedBy(b, both);
         if (!(costOf(rays, better[b]) < costOf(rays, old[b]))) continue;
         m_boxes[b] = better[b];

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
-#include <cmath>
 #include <vector>
 
 #include "probegi/context.h"
@@ -17,8 +16,8 @@ namespace probegi {
 /// What it costs that a ray ends at `distance` among the boxes rather than at the scene's surface.
 struct FitCost {
     float usual = 0.1f;     ///< metres: errors grow dear up to about this one, and ever less beyond
-    float leak = 10;        ///< of a ray that leaves where it should not
-    float sky = 3;          ///< of a ray that meets what is not there, or begins inside a box
+    float leak = 16;        ///< of a ray that leaves where it should not
+    float sky = 4;          ///< of a ray that meets what is not there, or begins inside a box
     float grazing = 0.25f;  ///< least cosine by which errors along the ray count
 
     float operator()(float wanted, float cosine, float distance) const noexcept {

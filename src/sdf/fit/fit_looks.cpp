@@ -14,7 +14,7 @@ namespace {
 /// Sums over the rays that meet a primitive.
 struct Seen {
     glm::vec3 albedo{0.0f}, emission{0.0f};
-    int near = 0;          ///< rays that meet the scene's surface beside it
+    int near = 0;  ///< rays that meet the scene's surface beside it
     int all = 0;
     std::map<int, int> materials;  ///< of the near ones
 };

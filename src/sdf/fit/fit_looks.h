@@ -11,9 +11,9 @@
 namespace probegi {
 
 /// Gives each primitive the mean colour and emission of the scene's surface that it stands for, by the rays that meet
-/// both within `near` metres of each other across the surface, and a name after the material of most of it. `solids` are
-/// those of `primitives`, of which the first `fixed` are left alone. Primitives that no ray meets go last; those before
-/// them are in the order of the rays that meet them.
+/// both within `near` metres of each other across the surface, and a name after the material of most of it. `solids`
+/// are those of `primitives`, of which the first `fixed` are left alone. Primitives that no ray meets go last; those
+/// before them are in the order of the rays that meet them.
 void giveLooks(std::vector<SdfPrimitive>& primitives, std::span<const kernels::SdfSolid> solids, std::size_t fixed,
                const FitRays& walked, float near, const Scene& scene);
 

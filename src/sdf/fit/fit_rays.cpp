@@ -15,13 +15,21 @@ namespace {
 constexpr std::size_t kWalkers = 4096;
 constexpr int kTestRays = 32;         ///< that tell air from matter
 constexpr float kMostBacks = 0.1f;    ///< share of their hits that may be backs of surfaces
+constexpr float kLeastSeen = 0.4f;    ///< share of them that hit something, where one stands on ground or in a room
 constexpr int kStartAttempts = 24;    ///< rounds of random starting points
+constexpr int kInsideAttempts = 8;    ///< of them, in the bounds if there is any air
+constexpr float kAround = 0.5f;       ///< of the scene's size, by which it is surrounded by air
 constexpr std::size_t kGrain = 1024;  ///< rays per task
 
 glm::vec3 randomPoint(const Bounds& bounds, std::uint32_t& state) {
     const float x = kernels::nextRandom(state);
     const float y = kernels::nextRandom(state);
     return bounds.lower + bounds.size() * glm::vec3(x, y, kernels::nextRandom(state));
+}
+
+Bounds widened(const Bounds& bounds) {
+    const glm::vec3 margin(kAround * glm::length(bounds.size()));
+    return {bounds.lower - margin, bounds.upper + margin};
 }
 
 glm::vec3 randomDirection(std::uint32_t& state) {
@@ -57,9 +65,9 @@ Result<Traced> trace(const Context& context, const Tracer& tracer, std::span<con
     return out;
 }
 
-/// Those of `points` that lie in air from which something is seen.
+/// Those of `points` that lie in air and from which something is seen in at least `least` of all directions.
 Result<std::vector<glm::vec3>> inAir(const Context& context, const Tracer& tracer, std::span<const glm::vec3> points,
-                                     std::uint32_t& state) {
+                                     float least, std::uint32_t& state) {
     std::vector<Ray> rays;
     rays.reserve(points.size() * kTestRays);
     for (const glm::vec3& p : points)
@@ -73,7 +81,8 @@ Result<std::vector<glm::vec3>> inAir(const Context& context, const Tracer& trace
             hits += traced->hits[i].valid();
             backs += traced->hits[i].valid() && traced->surfaces[i].back;
         }
-        if (hits > 0 && float(backs) <= kMostBacks * float(hits)) air.push_back(points[p]);
+        if (hits > 0 && float(hits) >= least * kTestRays && float(backs) <= kMostBacks * float(hits))
+            air.push_back(points[p]);
     }
     return air;
 }
@@ -83,14 +92,17 @@ Result<std::vector<glm::vec3>> startingPoints(const Context& context, const Trac
                                               std::span<const PlacedCamera> cameras, std::uint32_t& state) {
     std::vector<glm::vec3> places;
     for (const PlacedCamera& camera : cameras) places.push_back(camera.position);
-    const auto good = inAir(context, tracer, places, state);
+    const auto good = inAir(context, tracer, places, 0, state);
     if (!good) return good.error();
     std::vector<glm::vec3> starts;
-    const Bounds bounds = tracer.bounds();
+    Bounds bounds = tracer.bounds();
     for (int round = 0; round < kStartAttempts && starts.size() < kWalkers / 2; ++round) {
+        // A single body fills its bounds: it is seen from around it.
+        const bool around = round >= kInsideAttempts && starts.empty();
+        if (around) bounds = widened(tracer.bounds());
         places.clear();
         for (std::size_t i = 0; i < kWalkers / 8; ++i) places.push_back(randomPoint(bounds, state));
-        const auto air = inAir(context, tracer, places, state);
+        const auto air = inAir(context, tracer, places, around ? 0 : kLeastSeen, state);
         if (!air) return air.error();
         starts.insert(starts.end(), air->begin(), air->end());
     }
@@ -110,7 +122,8 @@ Result<FitRays> walkThrough(const Context& context, const Tracer& tracer, std::s
     const auto starts = startingPoints(context, tracer, cameras, state);
     if (!starts) return starts.error();
     if (starts->empty()) return out;
-    const Bounds bounds = tracer.bounds();
+    Bounds bounds = tracer.bounds();
+    for (const glm::vec3& start : *starts) bounds = {glm::min(bounds.lower, start), glm::max(bounds.upper, start)};
     std::vector<Ray> rays(starts->size());
     for (std::size_t i = 0; i < rays.size(); ++i) rays[i].origin = (*starts)[i];
     out.rays.reserve(count);

@@ -17,9 +17,9 @@ namespace probegi {
 namespace {
 
 constexpr int kMostFrames = 4;
-constexpr float kUsualError = 0.003f;         ///< of the scene's diagonal: beyond it, errors count ever less
-constexpr std::size_t kTestRays = 200'000;    ///< that the accuracy is measured by
-constexpr float kBeside = 4;                  ///< usual errors within which a primitive has its colour from the scene
+constexpr float kUsualError = 0.003f;       ///< of the scene's diagonal: beyond it, errors count ever less
+constexpr std::size_t kTestRays = 200'000;  ///< that the accuracy is measured by
+constexpr float kBeside = 4;                ///< usual errors within which a primitive has its colour from the scene
 
 Result<void> check(const SdfFitDesc& desc) {
     const auto outside = [](const char* name, int value, int least, int most) -> Result<void> {
@@ -71,8 +71,8 @@ Result<SdfFit> fitted(const Context& context, const Scene& scene, const ScenePos
     if (!walked) return walked.error();
     if (walked->rays.empty())
         return fail(ErrorCode::invalidArgument,
-                    "nowhere in the scene is air from which surfaces are seen from their front; check the winding of "
-                    "the meshes");
+                    "the scene has no surface that is seen from its front, from any place in the air; check the "
+                    "winding of its meshes");
     const float error = kUsualError * glm::length(tracer.bounds().size());
     const std::vector<glm::mat3> frames = findFrames(walked->surfaces, kMostFrames);
     const std::vector<float> ends = endsAmong(pinned->solids(), walked->rays);

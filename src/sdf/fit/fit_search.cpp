@@ -12,13 +12,13 @@ namespace probegi {
 
 namespace {
 
-constexpr float kOverbuild = 1.5f;          ///< boxes at first, over those wanted
-constexpr std::size_t kSearchRays = 100000; ///< by which boxes are chosen; all of them place their faces
-constexpr int kSeeds = 64;                  ///< growing boxes of which the best is taken
-constexpr int kMergeTrials = 96;            ///< pairs of boxes that might be one
-constexpr int kMostSwapped = 4;             ///< boxes a round
-constexpr float kWhim = 0.6f;               ///< by how much worths are varied at random when boxes are taken away
-constexpr double kLeastWorth = 5e-5;       ///< by which a box must lower the mean cost
+constexpr float kOverbuild = 1.5f;           ///< boxes at first, over those wanted
+constexpr std::size_t kSearchRays = 100000;  ///< by which boxes are chosen; all of them place their faces
+constexpr int kSeeds = 64;                   ///< growing boxes of which the best is taken
+constexpr int kMergeTrials = 96;             ///< pairs of boxes that might be one
+constexpr int kMostSwapped = 4;              ///< boxes a round
+constexpr float kWhim = 0.6f;                ///< by how much worths are varied at random when boxes are taken away
+constexpr double kLeastWorth = 5e-5;         ///< by which a box must lower the mean cost
 constexpr int kFirstSweeps = 8;
 constexpr int kSweeps = 4;
 constexpr int kLastSweeps = 6;
@@ -35,7 +35,10 @@ FitBox around(const FitBox& a, const FitBox& b) {
 class Search {
 public:
     Search(const Context& context, const FitSearch& search)
-        : m_context(context), m_search(search), m_state(kernels::hashUint(search.seed)), m_some(someRays()),
+        : m_context(context),
+          m_search(search),
+          m_state(kernels::hashUint(search.seed)),
+          m_some(someRays()),
           m_fit(context, m_some, m_ends, search.frames, search.cost) {
         for (std::size_t f = 0; f < search.frames.size(); ++f) {
             m_rays.push_back(raysIn(search.frames[f], m_some));
@@ -72,8 +75,7 @@ public:
             const FitRay& r = m_some[ray];
             const float distance = m_fit.distance(ray);
             const bool late = r.distance < kFitSky && distance > r.distance;
-            return Wanted{std::min(r.distance, distance),
-                          late ? m_search.cost(r.distance, r.cosine, distance) : 0.0f};
+            return Wanted{std::min(r.distance, distance), late ? m_search.cost(r.distance, r.cosine, distance) : 0.0f};
         });
         const int missing = m_search.most - int(m_fit.boxes().size());
         for (const FitBox& box : bestBoxes(missing)) m_fit.append(box, step());

@@ -17,9 +17,9 @@ struct FitSearch {
     std::span<const float> ends;  ///< as those of FitBoxes
     std::span<const glm::mat3> frames;
     FitCost cost;
-    int most = 64;        ///< boxes
-    int resolution = 128; ///< cubes along the longest side
-    int rounds = 24;      ///< in which some boxes are taken away and others put in
+    int most = 64;         ///< boxes
+    int resolution = 128;  ///< cubes along the longest side
+    int rounds = 24;       ///< in which some boxes are taken away and others put in
     std::uint32_t seed = 1;
 };
 

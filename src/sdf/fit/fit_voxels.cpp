@@ -23,8 +23,8 @@ FitVoxels::FitVoxels(std::span<const FitRay> rays, int resolution, int frame) : 
     glm::vec3 lower(1e30f), upper(-1e30f);
     for (const FitRay& ray : rays) {
         const glm::vec3 end = ray.distance < kFitSky ? ray.origin + ray.direction * ray.distance : ray.origin;
-        lower = glm::min(lower, end);
-        upper = glm::max(upper, end);
+        lower = glm::min(lower, glm::min(ray.origin, end));
+        upper = glm::max(upper, glm::max(ray.origin, end));
     }
     if (rays.empty()) lower = upper = glm::vec3(0.0f);
     const glm::vec3 size = upper - lower;
@@ -48,7 +48,8 @@ void FitVoxels::add(const FitRay& ray, float to, float at, float weight) {
     };
     glm::ivec3 endVoxel(-1);
     if (weight > 0) {
-        endVoxel = glm::ivec3(glm::floor((ray.origin + ray.direction * at - m_origin) / m_cell + ray.direction * 0.05f));
+        endVoxel =
+            glm::ivec3(glm::floor((ray.origin + ray.direction * at - m_origin) / m_cell + ray.direction * 0.05f));
         if (inside(endVoxel)) {
             m_ends[index(endVoxel)] += weight;
             m_worth[index(endVoxel)] += weight;

@@ -22,7 +22,7 @@ struct FitBox {
 /// places that no ray has seen are free.
 class FitVoxels {
 public:
-    /// A grid of about `resolution` cubes along its longest side around the rays' ends, in frame number `frame`, as
+    /// A grid of about `resolution` cubes along its longest side around the rays and their ends, in frame number `frame`, as
     /// whose coordinates those of the rays are.
     FitVoxels(std::span<const FitRay> rays, int resolution, int frame);
 
@@ -50,7 +50,8 @@ private:
         glm::ivec3 upper;  ///< exclusive
     };
     std::size_t index(glm::ivec3 v) const noexcept {
-        return std::size_t(v.x) + std::size_t(m_counts.x) * (std::size_t(v.y) + std::size_t(m_counts.y) * std::size_t(v.z));
+        return std::size_t(v.x) +
+               std::size_t(m_counts.x) * (std::size_t(v.y) + std::size_t(m_counts.y) * std::size_t(v.z));
     }
     float worth(const Range& box) const noexcept;
     Range grown(glm::ivec3 from, float& worthOut) const;
@@ -60,10 +61,10 @@ private:
     float m_cell = 1;
     int m_frame = 0;
     glm::ivec3 m_counts{1};
-    std::vector<float> m_worth;        ///< of each cube
-    std::vector<double> m_sums;        ///< inclusive, with a border of zeros
-    std::vector<float> m_ends;         ///< weight of the rays that end in a cube
-    std::vector<double> m_endsSoFar;   ///< running sum, by which seeds are drawn
+    std::vector<float> m_worth;       ///< of each cube
+    std::vector<double> m_sums;       ///< inclusive, with a border of zeros
+    std::vector<float> m_ends;        ///< weight of the rays that end in a cube
+    std::vector<double> m_endsSoFar;  ///< running sum, by which seeds are drawn
 };
 
 }  // namespace probegi
