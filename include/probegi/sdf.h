@@ -26,6 +26,9 @@ enum class SdfShape : std::uint8_t {
     plane,     ///< all below the frame's plane y = 0: solid ground
 };
 
+/// Texels along each side of SdfPrimitive::faces.
+constexpr int kSdfFaceSide = 6;
+
 /// A solid that stands for part of a scene. Its distance is negative inside.
 struct SdfPrimitive {
     std::string name{};
@@ -36,8 +39,13 @@ struct SdfPrimitive {
     /// half the length of the segment (0 allowed). Cylinder: x is the radius, y half the height. Plane: unused. What a
     /// shape does not use may be anything.
     glm::vec3 halfSize{0.5f};
-    float rounding = 0.0f;     ///< roundedBox: radius of its edges, metres, 0 to the smallest half size
-    glm::vec3 albedo{0.5f};    ///< linear RGB, 0..1
+    float rounding = 0.0f;   ///< roundedBox: radius of its edges, metres, 0 to the smallest half size
+    glm::vec3 albedo{0.5f};  ///< linear RGB, 0..1
+    /// Boxes only: the albedo of the faces in place of the one above, linear RGB, 0..1, between texels bilinear; empty:
+    /// one colour all over. Faces -X, +X, -Y, +Y, -Z, +Z of the frame, each kSdfFaceSide rows of as many texels: rows
+    /// run along the next axis after the face's (Y of X, Z of Y, X of Z), one after another along the last one. Files
+    /// and tracers keep the square roots in 8 bits a channel.
+    std::vector<glm::vec3> faces{};
     glm::vec3 emission{0.0f};  ///< radiance of its surface, W sr^-1 m^-2, 0 to 1e20
     /// Name of the node on which it rides: centre and rotation are then in that node's frame, which may turn, move and
     /// be scaled alike along all axes. Empty: it stands in the world.

@@ -15,14 +15,15 @@ namespace probegi {
 /// How well primitives stand for a scene, by rays that start where cameras and probes can be: of random walks from the
 /// scene's cameras and from points in the air all over it.
 struct SdfAccuracy {
-    std::int64_t rays = 0;    ///< by which it was measured; 0: nowhere in the scene is air
-    double skyRays = 0;       ///< share of the rays that meet nothing in the scene, 0..1
-    double toPrimitives = 0;  ///< mean distance of the scene's surface, where rays meet it, from the primitives', metres
-    double toScene = 0;       ///< mean distance of the primitives' surface, where rays meet it, from the scene's, at most
-                              ///< what rays along the normals and the way find, metres
-    double leaking = 0;       ///< share of the rays that meet the scene but no primitive, 0..1
-    double blockedSky = 0;    ///< share of those that meet nothing in the scene but a primitive, 0..1; 0: there are none
-    double startInside = 0;   ///< share of the rays that start inside a primitive, 0..1
+    std::int64_t rays = 0;  ///< by which it was measured; 0: nowhere in the scene is air
+    double skyRays = 0;     ///< share of the rays that meet nothing in the scene, 0..1
+    double toPrimitives =
+        0;                  ///< mean distance of the scene's surface, where rays meet it, from the primitives', metres
+    double toScene = 0;     ///< mean distance of the primitives' surface, where rays meet it, from the scene's, at most
+                            ///< what rays along the normals and the way find, metres
+    double leaking = 0;     ///< share of the rays that meet the scene but no primitive, 0..1
+    double blockedSky = 0;  ///< share of those that meet nothing in the scene but a primitive, 0..1; 0: there are none
+    double startInside = 0;  ///< share of the rays that start inside a primitive, 0..1
 };
 
 struct SdfFitDesc {
@@ -32,7 +33,8 @@ struct SdfFitDesc {
     /// proportion.
     int rounds = 24;
     std::uint32_t seed = 1;
-    /// Its pinned primitives are kept as they are, and count among maxPrimitives. Null: none. Read during the call only.
+    /// Its pinned primitives are kept as they are, and count among maxPrimitives. Null: none. Read during the call
+    /// only.
     const SdfScene* keep = nullptr;
 };
 
@@ -42,12 +44,12 @@ struct SdfFit {
 };
 
 /// Finds primitives for a scene as it stands in `pose`, which is that of `tracer`: boxes along the axes of most walls,
-/// and along slopes that are common. Each has the mean colour and emission of what it stands for, and is named after
-/// the material of most of it. Small things are left out where there are not enough primitives for them; where less do,
-/// there are fewer. What moves is part of the fit, where it stands: give it pinned primitives that ride on its nodes.
-/// The same for the same seed, whatever the number of threads. Errors: invalidArgument (the message names the member
-/// and its range; a pinned primitive rides on a node that the scene lacks; the scene has no air to look at it from), the
-/// tracer's, cancelled, outOfMemory.
+/// and along slopes that are common. Each has the colours (SdfPrimitive::faces) and the mean emission of what it stands
+/// for, and is named after the material of most of it. Small things are left out where there are not enough primitives
+/// for them; where less do, there are fewer. What moves is part of the fit, where it stands: give it pinned primitives
+/// that ride on its nodes. The same for the same seed, whatever the number of threads. Errors: invalidArgument (the
+/// message names the member and its range; a pinned primitive rides on a node that the scene lacks; the scene has no
+/// air to look at it from), the tracer's, cancelled, outOfMemory.
 PROBEGI_API Result<SdfFit> fitSdf(const Context& context, const Scene& scene, const ScenePose& pose,
                                   const Tracer& tracer, const SdfFitDesc& desc = {});
 

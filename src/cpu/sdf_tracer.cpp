@@ -5,6 +5,7 @@
 #include "cpu/sdf_lanes.h"
 #include "kernels/sdf/union_hit.h"
 #include "probegi/sdf.h"
+#include "sdf/paints.h"
 #include "sdf/placed_primitives.h"
 
 namespace probegi {
@@ -13,7 +14,8 @@ namespace {
 
 class SdfTracer final : public MovableTracer {
 public:
-    explicit SdfTracer(PlacedPrimitives placed) : m_placed(std::move(placed)), m_lanes(m_placed.solids()) {}
+    explicit SdfTracer(PlacedPrimitives placed)
+        : m_placed(std::move(placed)), m_paints(paintsOf(m_placed.primitives())), m_lanes(m_placed.solids()) {}
 
     Result<void> closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override {
         assert(rays.size() == hits.size());
@@ -47,20 +49,28 @@ public:
 private:
     Surface surface(const Ray& ray, const Hit& hit) const {
         const auto number = std::size_t(hit.primitive);
-        const SdfPrimitive& primitive = m_placed.primitives()[number];
+        const kernels::SdfPaint& paint = m_paints.paints[number];
+        const kernels::SdfSolid& solid = m_placed.solids()[number];
         const bool within = hit.geometry == kernels::kSdfFromWithin;
         Surface s;
         s.position = ray.origin + ray.direction * hit.distance;
-        const glm::vec3 normal = kernels::sdfSurfaceNormal(m_placed.solids()[number], s.position);
+        const glm::vec3 normal = kernels::sdfSurfaceNormal(solid, s.position);
         s.geometricNormal = within ? -normal : normal;
         s.shadingNormal = kernels::bendTowards(s.geometricNormal, -ray.direction);
-        s.albedo = primitive.albedo;
-        if (!within) s.emission = primitive.emission;
+        s.albedo = paint.faces < 0 ? paint.albedo : faceColour(solid, paint.faces, s.position);
+        if (!within) s.emission = paint.emission;
         s.back = s.backface = within;
         return s;
     }
 
+    glm::vec3 faceColour(const kernels::SdfSolid& solid, int faces, glm::vec3 position) const {
+        const kernels::SdfFacePoint at = kernels::sdfFacePointAt(solid, position);
+        const std::uint32_t* texel = m_paints.texels.data() + faces + at.first;
+        return kernels::sdfFaceColour(at, texel[0], texel[1], texel[kSdfFaceSide], texel[kSdfFaceSide + 1]);
+    }
+
     PlacedPrimitives m_placed;
+    SdfPaints m_paints;
     SdfLanes m_lanes;
 };
 

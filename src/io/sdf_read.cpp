@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -48,6 +49,13 @@ public:
         const json& value = member(key);
         if (!value.is_string()) refuseMalformed("{}: its '{}' must be a text in quotes", m_what, key);
         return value.get<std::string>();
+    }
+    std::vector<std::string> texts(const char* key) {
+        const json& value = member(key);
+        const auto isText = [](const json& element) { return element.is_string(); };
+        if (!value.is_array() || !std::all_of(value.begin(), value.end(), isText))
+            refuseMalformed("{}: its '{}' must be a list of texts", m_what, key);
+        return value.get<std::vector<std::string>>();
     }
     bool flag(const char* key) {
         const json& value = member(key);
@@ -101,6 +109,32 @@ glm::quat readRotation(Members& members) {
     return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};
 }
 
+/// A texel's channel of two hexadecimal digits; the square root of the colour in 255ths.
+float readChannel(const std::string& digits, std::size_t at, const std::string& what) {
+    unsigned value = 0;
+    const char* end = digits.data() + at + 2;
+    const auto [rest, error] = std::from_chars(digits.data() + at, end, value, 16);
+    if (error != std::errc() || rest != end)
+        refuseMalformed("{}: its 'faces' must be made of hexadecimal digits, 0 to 9 and a to f", what);
+    const float root = float(value) * (1.0f / 255.0f);
+    return root * root;
+}
+
+std::vector<glm::vec3> readFaces(Members& members) {
+    constexpr std::size_t kDigits = 6 * kSdfFaceSide * kSdfFaceSide;
+    const std::vector<std::string> faces = members.texts("faces");
+    std::vector<glm::vec3> texels;
+    for (const std::string& digits : faces) {
+        if (faces.size() != 6 || digits.size() != kDigits) break;
+        for (std::size_t i = 0; i < kDigits; i += 6)
+            texels.emplace_back(readChannel(digits, i, members.what()), readChannel(digits, i + 2, members.what()),
+                                readChannel(digits, i + 4, members.what()));
+    }
+    if (texels.size() != kDigits)
+        refuseMalformed("{}: its 'faces' must be 6 texts of {} hexadecimal digits each", members.what(), kDigits);
+    return texels;
+}
+
 SdfPrimitive readPrimitive(const json& value, std::size_t number) {
     if (!value.is_object()) refuseMalformed("primitive {} must be an object in braces", number);
     const auto name = value.find("name");
@@ -119,6 +153,7 @@ SdfPrimitive readPrimitive(const json& value, std::size_t number) {
     }
     if (p.shape == SdfShape::roundedBox) p.rounding = members.number("rounding");
     if (members.has("albedo")) p.albedo = members.numbers<glm::vec3>("albedo");
+    if (members.has("faces")) p.faces = readFaces(members);
     if (members.has("emission")) p.emission = members.numbers<glm::vec3>("emission");
     if (members.has("node")) p.node = members.text("node");
     if (members.has("pinned")) p.pinned = members.flag("pinned");

@@ -1,10 +1,14 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "io/file_output.h"
 #include "io/refused.h"
 #include "io/sdf_shapes.h"
 #include "io/sdf_text.h"
+#include "kernels/sdf/face_texels.h"
 
 namespace probegi {
 
@@ -18,6 +22,20 @@ using Text =
 
 Text array(glm::vec3 v) {
     return Text::array({v.x, v.y, v.z});
+}
+
+/// Six texts of two hexadecimal digits a channel: red, green, blue, texel by texel.
+Text facesText(std::span<const glm::vec3> texels) {
+    Text faces = Text::array();
+    const std::size_t perFace = texels.size() / 6;
+    for (std::size_t face = 0; face < 6; ++face) {
+        std::string digits;
+        for (const glm::vec3& colour : texels.subspan(face * perFace, perFace))
+            for (int channel = 0; channel < 3; ++channel)
+                digits += fmt::format("{:02x}", kernels::sdfPackChannel(colour[channel]));
+        faces.push_back(digits);
+    }
+    return faces;
 }
 
 Text primitiveText(const SdfPrimitive& p) {
@@ -37,6 +55,7 @@ Text primitiveText(const SdfPrimitive& p) {
     }
     if (p.shape == SdfShape::roundedBox) text["rounding"] = p.rounding;
     text["albedo"] = array(p.albedo);
+    if (!p.faces.empty()) text["faces"] = facesText(p.faces);
     if (p.emission != unset.emission) text["emission"] = array(p.emission);
     if (!p.node.empty()) text["node"] = p.node;
     if (p.pinned) text["pinned"] = true;

@@ -59,6 +59,19 @@ Result<void> validateSize(const std::string& what, const SdfPrimitive& p) {
     return {};
 }
 
+Result<void> validateFaces(const std::string& what, const SdfPrimitive& p) {
+    if (p.faces.empty()) return {};
+    if (p.shape != SdfShape::box && p.shape != SdfShape::roundedBox)
+        return malformed(what, ": only boxes have colours by face");
+    constexpr std::size_t kTexels = 6 * kSdfFaceSide * kSdfFaceSide;
+    if (p.faces.size() != kTexels)
+        return malformed(what, ": its faces have ", p.faces.size(), " texels; they must have ", kTexels);
+    for (const glm::vec3& colour : p.faces)
+        if (!within(colour.x, 0, 1) || !within(colour.y, 0, 1) || !within(colour.z, 0, 1))
+            return malformed(what, ": a texel of its faces ", text(colour), " must be 0..1 in every component");
+    return {};
+}
+
 Result<void> validatePrimitive(const std::string& what, const SdfPrimitive& p) {
     if (p.shape > SdfShape::plane) return malformed(what, ": its shape ", int(p.shape), " is none");
     if (!inside(p.centre)) return malformed(what, ": its centre ", text(p.centre), " must be within ", kLargest, " m");
@@ -70,6 +83,7 @@ Result<void> validatePrimitive(const std::string& what, const SdfPrimitive& p) {
     if (!within(p.albedo.x, 0, 1) || !within(p.albedo.y, 0, 1) || !within(p.albedo.z, 0, 1)) {
         return malformed(what, ": its albedo ", text(p.albedo), " must be 0..1 in every component");
     }
+    if (auto ok = validateFaces(what, p); !ok) return ok;
     if (!energy(p.emission)) return malformed(what, ": its emission ", text(p.emission), " must be 0 to ", kBrightest);
     return {};
 }

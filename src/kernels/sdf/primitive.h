@@ -32,6 +32,7 @@ struct SdfSolid {
 struct SdfPaint {
     vec3 albedo;    // linear RGB, 0..1
     vec3 emission;  // W sr^-1 m^-2
+    int faces;      // number of the first texel of its faces (face_texels.h); -1: none
 };
 
 KERNEL_FN vec3 sdfToLocal(SdfSolid solid, vec3 direction) {
@@ -149,7 +150,7 @@ KERNELS_END
 namespace probegi::kernels {
 static_assert(offsetof(SdfSolid, shape) == 12 && offsetof(SdfSolid, rotation) == 16 &&
               offsetof(SdfSolid, halfSize) == 32 && offsetof(SdfSolid, rounding) == 44 && sizeof(SdfSolid) == 48);
-static_assert(offsetof(SdfPaint, emission) == 12 && sizeof(SdfPaint) == 24);
+static_assert(offsetof(SdfPaint, emission) == 12 && sizeof(SdfPaint) == 28);
 }  // namespace probegi::kernels
 #endif
 

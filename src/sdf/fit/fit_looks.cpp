@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "sdf/fit/face_sums.h"
 #include "sdf/fit/sdf_accuracy.h"
 
 namespace probegi {
@@ -14,6 +15,7 @@ namespace {
 /// Sums over the rays that meet a primitive.
 struct Seen {
     glm::vec3 albedo{0.0f}, emission{0.0f};
+    FaceSums faces;
     int near = 0;  ///< rays that meet the scene's surface beside it
     int all = 0;
     std::map<int, int> materials;  ///< of the near ones
@@ -43,6 +45,7 @@ void giveLooks(std::vector<SdfPrimitive>& primitives, std::span<const kernels::S
         const FitSurface& surface = walked.surfaces[i];
         of.albedo += surface.albedo;
         of.emission += surface.emission;
+        of.faces.add(solids[std::size_t(number)], ray.origin + ray.direction * distance, surface.albedo);
         ++of.near;
         ++of.materials[surface.material];
     }
@@ -58,6 +61,7 @@ void giveLooks(std::vector<SdfPrimitive>& primitives, std::span<const kernels::S
         const Seen& of = seen[from];
         if (of.near > 0) {
             p.albedo = glm::clamp(of.albedo / float(of.near), 0.0f, 1.0f);
+            p.faces = of.faces.means(p.albedo);
             p.emission = of.emission / float(of.near);
         }
         const std::string name = materialName(of, scene);

@@ -1,16 +1,20 @@
 // Primitives by exact intersection or, where there are clusters, by the paper's sphere tracing. Its block
-// (SdfSceneTracer::block) has the addresses of their geometry, of what they look like, and of clusters and numbers; and
-// how many primitives and clusters there are.
+// (SdfSceneTracer::block) has the addresses of their geometry, of what they look like, of clusters and numbers, and of
+// the texels of faces; and how many primitives and clusters there are.
 #ifndef PROBEGI_TRACER_SDF_GLSL
 #define PROBEGI_TRACER_SDF_GLSL
 
 #include "kernels/sdf/cluster.h"
+#include "kernels/sdf/face_texels.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SdfSolids {
     SdfSolid at[];
 };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SdfPaints {
     SdfPaint at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SdfTexels {
+    uint at[];
 };
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SdfClusterList {
@@ -71,15 +75,24 @@ bool occluded(Ray ray) {
     return sdfIsBlocked(ray.origin, near, ray.direction, ray.far, sdfSolidCount());
 }
 
+vec3 sdfFaceColourAt(SdfSolid solid, int faces, vec3 position) {
+    const SdfFacePoint at = sdfFacePointAt(solid, position);
+    SdfTexels texels = SdfTexels(sceneConstants.tracer.addresses[5]);
+    const int first = faces + at.first;
+    return sdfFaceColour(at, texels.at[first], texels.at[first + 1], texels.at[first + kSdfFaceSide],
+                         texels.at[first + kSdfFaceSide + 1]);
+}
+
 Surface surfaceAt(Ray ray, Hit hit, float spread) {
     const SdfPaint paint = SdfPaints(sceneConstants.tracer.addresses[1]).at[hit.primitive];
     const bool within = hit.geometry == kSdfFromWithin;
     Surface surface;
     surface.position = ray.origin + ray.direction * hit.distance;
-    const vec3 normal = sdfSurfaceNormal(sdfSolid(sdfStoredNumber(hit.primitive)), surface.position);
+    const SdfSolid solid = sdfSolid(sdfStoredNumber(hit.primitive));
+    const vec3 normal = sdfSurfaceNormal(solid, surface.position);
     surface.geometricNormal = within ? -normal : normal;
     surface.shadingNormal = bendTowards(surface.geometricNormal, -ray.direction);
-    surface.albedo = paint.albedo;
+    surface.albedo = paint.faces < 0 ? paint.albedo : sdfFaceColourAt(solid, paint.faces, surface.position);
     surface.emission = within ? vec3(0.0) : paint.emission;
     surface.metallic = 0.0;
     surface.roughness = 1.0;

@@ -1,6 +1,7 @@
 #include "vulkan/tracers/sdf_scene_tracer.h"
 
 #include "sdf/clusters.h"
+#include "sdf/paints.h"
 
 namespace probegi::vulkan {
 
@@ -35,15 +36,15 @@ class SdfSceneTracer final : public SceneTracer {
 public:
     SdfSceneTracer(const TracedScene& scene, bool inClusters)
         : m_inClusters(inClusters), m_data(buffersOf(scene.primitives->solids(), inClusters)) {
-        for (const SdfPrimitive& primitive : scene.primitives->primitives())
-            m_paints.push_back({primitive.albedo, primitive.emission});
+        m_paints = paintsOf(scene.primitives->primitives());
         m_count = std::uint32_t(m_data.solids.size());
         m_clusterCount = std::uint32_t(m_data.clusters.size());
         // As many as there may be after a move.
         m_data.clusters.resize(inClusters ? m_count : 0);
         const auto& device = scene.device.impl();
         m_solidBuffer = scene.staging.add(device, "primitives", m_data.solids);
-        m_paintBuffer = scene.staging.add(device, "primitives' colours", m_paints);
+        m_paintBuffer = scene.staging.add(device, "primitives' colours", m_paints.paints);
+        m_texelBuffer = scene.staging.add(device, "colours of primitives' faces", m_paints.texels);
         m_clusterBuffer = scene.staging.add(device, "clusters of primitives", m_data.clusters);
         m_givenBuffer = scene.staging.add(device, "primitives' numbers", m_data.given);
         m_storedBuffer = scene.staging.add(device, "primitives by number", m_data.stored);
@@ -52,7 +53,7 @@ public:
     kernels::TracerBlock block() const noexcept override {
         return {{packAddress(m_solidBuffer.address()), packAddress(m_paintBuffer.address()),
                  packAddress(m_clusterBuffer.address()), packAddress(m_givenBuffer.address()),
-                 packAddress(m_storedBuffer.address())},
+                 packAddress(m_storedBuffer.address()), packAddress(m_texelBuffer.address())},
                 {m_count, m_clusterCount}};
     }
     void recordBuild(const Recorder&) override {}
@@ -71,15 +72,15 @@ public:
     }
     std::size_t bytes() const noexcept override {
         return m_solidBuffer.bytes() + m_paintBuffer.bytes() + m_clusterBuffer.bytes() + m_givenBuffer.bytes() +
-               m_storedBuffer.bytes();
+               m_storedBuffer.bytes() + m_texelBuffer.bytes();
     }
 
 private:
     bool m_inClusters;
     SdfBuffers m_data;
-    std::vector<kernels::SdfPaint> m_paints;
+    SdfPaints m_paints;
     std::uint32_t m_count = 0, m_clusterCount = 0;
-    Buffer m_solidBuffer, m_paintBuffer, m_clusterBuffer, m_givenBuffer, m_storedBuffer;
+    Buffer m_solidBuffer, m_paintBuffer, m_clusterBuffer, m_givenBuffer, m_storedBuffer, m_texelBuffer;
 };
 
 bool always(const Device&) {
