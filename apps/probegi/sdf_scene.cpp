@@ -14,14 +14,33 @@ void addSdfOption(CLI::App& command, SceneOptions& options) {
         ->type_name("FILE");
 }
 
+namespace {
+
+/// Primitives that ride on nodes are in their nodes' frames, wherever the scene is.
+void move(SdfScene& sdf, glm::vec3 by) {
+    for (SdfPrimitive& primitive : sdf.primitives)
+        if (primitive.node.empty()) primitive.centre += by;
+}
+
+}  // namespace
+
+Result<SdfScene> loadSdfOf(const Scene& scene, const std::filesystem::path& path, const ReadLimits& limits) {
+    auto sdf = loadSdf(path, limits);
+    if (sdf) move(*sdf, -scene.origin);
+    return sdf;
+}
+
+Result<void> saveSdfOf(const Scene& scene, const std::filesystem::path& path, SdfScene sdf) {
+    move(sdf, scene.origin);
+    return saveSdf(path, sdf);
+}
+
 Result<void> readSdf(LoadedSetup& setup, const SceneOptions& options) {
     if (options.sdf.empty()) return {};
-    auto sdf = loadSdf(options.sdf, options.limits);
+    auto sdf = loadSdfOf(*setup.scene, options.sdf, options.limits);
     if (!sdf) return sdf.error();
     if (sdf->primitives.empty())
         printWarning(fmt::format("{} has no primitives: the rays of probes meet only the sky", options.sdf));
-    for (SdfPrimitive& primitive : sdf->primitives)
-        if (primitive.node.empty()) primitive.centre -= setup.scene->origin;
     setup.sdf = std::move(*sdf);
     setup.files.emplace_back(options.sdf);
     return {};
@@ -36,8 +55,7 @@ Result<std::unique_ptr<MovableTracer>> openProbeTracer(const Backend& backend, c
 }
 
 std::size_t sdfBytes(const SdfScene& sdf) {
-    constexpr std::size_t kPrimitiveBytes = 48;  // docs/sdf.md
-    return kPrimitiveBytes * sdf.primitives.size();
+    return kSdfPrimitiveBytes * sdf.primitives.size();
 }
 
 }  // namespace probegi::tool

@@ -12,6 +12,10 @@ namespace probegi::tool {
 /// Adds --sdf.
 void addSdfOption(CLI::App& command, SceneOptions& options);
 
+/// Reads and writes primitives in the coordinates of the scene's file (Scene::origin). Errors: as loadSdf(), saveSdf().
+Result<SdfScene> loadSdfOf(const Scene& scene, const std::filesystem::path& path, const ReadLimits& limits);
+Result<void> saveSdfOf(const Scene& scene, const std::filesystem::path& path, SdfScene sdf);
+
 /// Reads the file of --sdf into the setup, in the coordinates of its scene. Warns where it has no primitives. Nothing
 /// without the option. Errors: those of loadSdf.
 Result<void> readSdf(LoadedSetup& setup, const SceneOptions& options);

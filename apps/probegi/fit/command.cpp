@@ -13,6 +13,7 @@
 #include "fit/picture.h"
 #include "probegi/sdf_fit.h"
 #include "scene_setup.h"
+#include "sdf_scene.h"
 
 namespace probegi::tool {
 
@@ -40,7 +41,7 @@ Example: probegi fit sponza.glb --check sponza.sdf.json            (measures onl
 nlohmann::ordered_json statsOf(const FitOptions& options, const SdfScene& sdf, const SdfAccuracy& a, double seconds) {
     return {{"scene", options.scene.scene},
             {"primitives", sdf.primitives.size()},
-            {"geometryBytes", sdf.primitives.size() * kSdfPrimitiveBytes},
+            {"geometryBytes", sdfBytes(sdf)},
             {"seconds", seconds},
             {"rays", a.rays},
             {"skyRays", a.skyRays},
@@ -52,8 +53,7 @@ nlohmann::ordered_json statsOf(const FitOptions& options, const SdfScene& sdf, c
 }
 
 void print(const SdfScene& sdf, const SdfAccuracy& a, std::optional<double> seconds) {
-    fmt::print("{} primitives, {} bytes of geometry", sdf.primitives.size(),
-               sdf.primitives.size() * kSdfPrimitiveBytes);
+    fmt::print("{} primitives, {} bytes of geometry", sdf.primitives.size(), sdfBytes(sdf));
     if (seconds) fmt::print(", found in {:.1f} s", *seconds);
     fmt::print("\n");
     if (a.rays == 0) {
@@ -71,11 +71,11 @@ void print(const SdfScene& sdf, const SdfAccuracy& a, std::optional<double> seco
 }
 
 /// The primitives whose pinned ones are kept: --keep, else the file that is about to be replaced.
-Result<std::optional<SdfScene>> kept(const FitOptions& options) {
+Result<std::optional<SdfScene>> kept(const FitOptions& options, const Scene& scene) {
     const std::filesystem::path from = options.keep.empty() ? options.output : options.keep;
     std::error_code none;
     if (options.keep.empty() && !std::filesystem::is_regular_file(from, none)) return std::optional<SdfScene>();
-    auto sdf = loadSdf(from, options.scene.limits);
+    auto sdf = loadSdfOf(scene, from, options.scene.limits);
     if (!sdf) return sdf.error();
     return std::optional<SdfScene>(std::move(*sdf));
 }
@@ -111,13 +111,13 @@ Result<void> writePicture(const Context& context, const FitOptions& options, con
 Result<SdfFit> primitivesOf(const Context& context, const FitOptions& options, const Scene& scene,
                             const ScenePose& pose, const Tracer& tracer) {
     if (options.check.empty()) {
-        const auto keep = kept(options);
+        const auto keep = kept(options, scene);
         if (!keep) return keep.error();
         SdfFitDesc desc = options.desc;
         desc.keep = *keep ? &**keep : nullptr;
         return fitSdf(context, scene, pose, tracer, desc);
     }
-    auto sdf = loadSdf(options.check, options.scene.limits);
+    auto sdf = loadSdfOf(scene, options.check, options.scene.limits);
     if (!sdf) return sdf.error();
     const auto accuracy = measureSdf(context, scene, pose, tracer, *sdf);
     if (!accuracy) return accuracy.error();
@@ -149,7 +149,7 @@ Result<void> fit(const FitOptions& options) {
     if (!found) return found.error();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!options.output.empty())
-        if (auto written = saveSdf(options.output, found->sdf); !written) return written;
+        if (auto written = saveSdfOf(loaded->scene, options.output, found->sdf); !written) return written;
     if (!options.picture.empty())
         if (auto drawn = writePicture(*context, options, loaded->scene, pose, *camera, **tracer, found->sdf); !drawn)
             return drawn;
