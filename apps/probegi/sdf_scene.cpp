@@ -17,7 +17,7 @@ void addSdfOption(CLI::App& command, SceneOptions& options) {
 namespace {
 
 /// Primitives that ride on nodes are in their nodes' frames, wherever the scene is.
-void move(SdfScene& sdf, glm::vec3 by) {
+void shift(SdfScene& sdf, glm::vec3 by) {
     for (SdfPrimitive& primitive : sdf.primitives)
         if (primitive.node.empty()) primitive.centre += by;
 }
@@ -26,12 +26,12 @@ void move(SdfScene& sdf, glm::vec3 by) {
 
 Result<SdfScene> loadSdfOf(const Scene& scene, const std::filesystem::path& path, const ReadLimits& limits) {
     auto sdf = loadSdf(path, limits);
-    if (sdf) move(*sdf, -scene.origin);
+    if (sdf) shift(*sdf, -scene.origin);
     return sdf;
 }
 
 Result<void> saveSdfOf(const Scene& scene, const std::filesystem::path& path, SdfScene sdf) {
-    move(sdf, scene.origin);
+    shift(sdf, scene.origin);
     return saveSdf(path, sdf);
 }
 
@@ -41,7 +41,7 @@ Result<void> readSdf(LoadedSetup& setup, const SceneOptions& options) {
     if (!sdf) return sdf.error();
     if (sdf->primitives.empty())
         printWarning(fmt::format("{} has no primitives: the rays of probes meet only the sky", options.sdf));
-    setup.sdf = std::move(*sdf);
+    setup.sdf = std::shift(*sdf);
     setup.files.emplace_back(options.sdf);
     return {};
 }
