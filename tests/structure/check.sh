@@ -27,6 +27,7 @@ declare -A below=(
     [geometry]="scene core kernels"
     [bvh]="scene core kernels"
     [field]="geometry scene core kernels"
+    [mask]="field geometry scene core kernels"
     [cpu]="field geometry scene core kernels"
     [vulkan]="bvh field geometry scene core kernels"
     [reference]="field geometry scene core kernels"

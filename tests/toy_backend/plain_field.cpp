@@ -23,6 +23,8 @@ struct SnapshotAccess : VolumeAccess {
     int rules;
     int guard;
     float selfShadowBias;
+    int maskTexels;
+    std::span<const std::uint32_t> masks;
     const FieldSnapshot& probes;
     std::span<const kernels::Volume> volumes;
     std::atomic<std::uint64_t>& fallbacks;
@@ -48,6 +50,7 @@ struct SnapshotAccess : VolumeAccess {
         const glm::vec3 e = a.probes.probeIrradiance(slot, at) / kernels::kPi;
         return {kernels::encodeIrradiance(e.x), kernels::encodeIrradiance(e.y), kernels::encodeIrradiance(e.z)};
     }
+    friend int maskWord(const SnapshotAccess& a, int number) { return int(a.masks[std::size_t(number)]); }
     friend float givenVisibility(const SnapshotAccess&, int) { return 1.0f; }
     friend void countFallback(const SnapshotAccess& a) { ++a.fallbacks; }
 };
@@ -156,6 +159,8 @@ glm::vec3 PlainField::irradiance(const FieldSettings& settings, const FieldQuery
                                 kernels::kRulesPaper,
                                 guardNumber(settings.guard),
                                 settings.selfShadowBias,
+                                settings.masks ? settings.masks->factor() : 2,
+                                settings.masks ? settings.masks->words() : std::span<const std::uint32_t>(),
                                 m_probes,
                                 m_volumes,
                                 m_fallbacks};

@@ -58,6 +58,7 @@ RecordAccess::RecordAccess(const FieldRecord& record, const LeftOut& out)
     : rules(record.snapshot.desc.rules == FieldRules::paper ? kernels::kRulesPaper : kernels::kRulesMeasured),
       guard(guardNumber(record.settings.guard)),
       selfShadowBias(record.settings.selfShadowBias),
+      maskTexels(record.settings.masks ? record.settings.masks->factor() : 2),
       m_record(&record),
       m_out(&out) {}
 

@@ -8,6 +8,7 @@
 #include "field/volume_access.h"
 #include "kernels/lookup/probe_query.h"
 #include "kernels/probe/solid_probe.h"
+#include "probegi/masks.h"
 #include "vulkan/device/errors.h"
 #include "vulkan/field/pool_tiles.h"
 #include "vulkan/scene/gpu_lighting_impl.h"
@@ -116,7 +117,9 @@ kernels::FieldConstants FieldPasses::constants(const FieldSettings& settings) co
         .visibilityTexelSize = texelSize(m_visibility),
         .volumes = {},
         .blending = blending(settings),
-        .rays = m_rays};
+        .rays = m_rays,
+        .masks = packAddress(m_masks.address()),
+        .maskTexels = settings.masks ? settings.masks->factor() : 2};
     std::copy(m_volumes.begin(), m_volumes.end(), c.volumes);
     return c;
 }
@@ -172,7 +175,7 @@ FieldMemory FieldPasses::memory() const noexcept {
     return {m_irradiance.bytes(), m_visibility.bytes(),
             m_states.bytes() + m_tasks.bytes() + m_sides.bytes() + m_filters.bytes() + m_constants.bytes() +
                 m_directions.bytes() + m_surfaces.bytes() + m_bounds.bytes() + m_chosen.bytes() + m_events.bytes() +
-                m_limits.bytes() + m_progress.bytes(),
+                m_limits.bytes() + m_progress.bytes() + m_masks.bytes(),
             m_irradianceWeights.bytes() + m_visibilityRays.bytes() + m_visibilityWeights.bytes() + m_hits.bytes() +
                 m_rayData.bytes() + m_fixedRays.bytes() + m_emitterLights.bytes() + m_steps.bytes() +
                 m_changes.bytes()};
@@ -228,8 +231,19 @@ void FieldPasses::recordClear(const Recorder& recorder, const FieldSettings& set
     m_recordedSettings = settings;
     m_recordedTasks.reset();
     m_rays = rays;
-    recorder.write(m_constants, bytesOf(constants(settings)));
+    recordConstants(recorder, settings);
     recorder.orderAll();
+}
+
+// Earlier passes with other masks have run: fields whose passes are only recorded have none (GpuField).
+void FieldPasses::recordConstants(const Recorder& recorder, const FieldSettings& settings) {
+    if (settings.guard == LeakGuard::masks && settings.masks != m_recordedMasks) {
+        const auto words = std::as_bytes(settings.masks->words());
+        m_masks = Buffer(m_device.impl(), "masks", words.size(), kAddressed);
+        recorder.write(m_masks, words);
+        m_recordedMasks = settings.masks;
+    }
+    recorder.write(m_constants, bytesOf(constants(settings)));
 }
 
 void FieldPasses::recordEnter(const Recorder& recorder, const FieldSettings& settings, int volume, glm::ivec3 cells) {
@@ -338,9 +352,9 @@ void FieldPasses::recordPlacements(const Recorder& recorder, const FieldSettings
 
 void FieldPasses::recordSettings(const Recorder& recorder, const FieldSettings& settings) {
     if (settings == m_recordedSettings) return;
-    m_recordedSettings = settings;
     recorder.orderAll();
-    recorder.write(m_constants, bytesOf(constants(settings)));
+    recordConstants(recorder, settings);
+    m_recordedSettings = settings;
     recorder.orderAll();
 }
 

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "mask/mask_texels.h"
+
+namespace probegi {
+
+/// Texel words of kernels/guards/masks.h, a cube each, every one different (section 3.4.2).
+struct MaskCubes {
+    std::vector<std::uint32_t> words;
+    std::vector<std::uint32_t> of;  ///< by blocked cell: its cube; the last is that of all other cells, which see all
+    std::size_t cubeWords = 0;
+    std::size_t count() const noexcept { return words.size() / cubeWords; }
+};
+
+/// Merges equal cubes; they are numbered in the order of their first cells, that which sees all last if it is new.
+MaskCubes mergeCubes(std::span<const std::uint8_t> masks, int factor);
+
+}  // namespace probegi
