@@ -65,6 +65,7 @@ public:
     const MaskReport& report() const noexcept;
     int clusters() const noexcept;
     int factor() const noexcept;
+    bool packed() const noexcept { return clusters() <= 4; }  ///< whether two texels share one of words()
     /// Cluster of the probe of a slot, 0..clusters-1. Unchecked.
     int cluster(int slot) const noexcept;
     /// As look-ups read it, on every backend: src/kernels/guards/masks.h has the layout.

@@ -65,6 +65,7 @@ FieldView CpuField::view(const FieldSettings& settings) const noexcept {
             .placements = m_storage.placements.data(),
             .maskWords = settings.masks ? settings.masks->words().data() : nullptr,
             .maskTexels = settings.masks ? settings.masks->factor() : 2,
+            .maskPacked = settings.masks && settings.masks->packed(),
             .fallbacks = &m_fallbacks,
             .irradianceTaps = &m_irradianceTaps,
             .visibilityTaps = &m_visibilityTaps};

@@ -14,13 +14,14 @@ public:
     int rules;
     int guard;
     float selfShadowBias;
-    int maskTexels;
+    int maskTexels, maskPacked;
 
     explicit FieldAccess(const FieldView& view)
         : rules(view.rules == FieldRules::paper ? kernels::kRulesPaper : kernels::kRulesMeasured),
           guard(guardNumber(view.guard)),
           selfShadowBias(view.selfShadowBias),
           maskTexels(view.maskTexels),
+          maskPacked(view.maskPacked ? 1 : 0),
           m_view(view) {}
 
     friend float storedBackfaceShare(const FieldAccess& a, int slot) { return a.m_view.backfaceShare[slot]; }

@@ -29,11 +29,12 @@ public:
     static constexpr int rules = kRules;
     static constexpr int guard = kGuard;
     float selfShadowBias;
-    int maskTexels;
+    int maskTexels, maskPacked;
 
     explicit LaneAccess(const FieldView& view)
         : selfShadowBias(view.selfShadowBias),
           maskTexels(view.maskTexels),
+          maskPacked(view.maskPacked ? 1 : 0),
           m_masks(reinterpret_cast<const std::int32_t*>(view.maskWords)),
           m_backfaceShare(view.backfaceShare),
           m_placements(reinterpret_cast<const std::int32_t*>(view.placements)),

@@ -82,7 +82,7 @@ void describe(const MaskTexels& texels, const MaskCells& cells, std::size_t cell
     report.cells = cells.count;
     report.blocked = cells.blocked.size();
     report.residual = texels.leaking > 0 ? texels.residual / texels.leaking : 0;
-    const double looked = double(texels.masks.size());
+    const double looked = double(texels.texels.size());
     report.meanClusters = looked > 0 ? double(texels.seenClusters) / looked : 0;
     report.blindTexels = double(texels.blind) / double(cells.count * cellTexels);
 }
@@ -120,7 +120,7 @@ Result<std::shared_ptr<const Masks>> bake(const Context& context, const Tracer& 
     const auto texels = solveMasks(context, tracer, cells, *sight, *clusters, desc.factor, desc.strict);
     if (!texels) return texels.error();
     report.maskSeconds = watch.lap();
-    const MaskCubes cubes = mergeCubes(texels->masks, desc.factor);
+    const MaskCubes cubes = mergeCubes(texels->texels, desc.factor, desc.clusters <= 4);
     if (2 * clusters->size() + cubes.words.size() > kMostWords) return noMemory();
 
     auto impl = std::make_unique<Masks::Impl>();

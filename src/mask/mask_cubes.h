@@ -12,7 +12,8 @@ struct MaskCubes {
     std::size_t count() const noexcept { return words.size() / cubeWords; }
 };
 
-/// Merges equal cubes; they are numbered in the order of their first cells, that which sees all last if it is new.
-MaskCubes mergeCubes(std::span<const std::uint8_t> masks, int factor);
+/// Merges equal cubes of texels [cell][texel]; they are numbered in the order of their first cells, that which sees all
+/// last if it is new. `packed`: two texels to a word, without their upper halves.
+MaskCubes mergeCubes(std::span<const std::uint32_t> texels, int factor, bool packed);
 
 }  // namespace probegi

@@ -1,6 +1,6 @@
 #include "mask/mask_texels.h"
 
-#include <atomic>
+#include <algorithm>
 #include <bit>
 
 #include "core/parallel.h"
@@ -55,45 +55,85 @@ private:
     unsigned m_present = 0;
 };
 
-/// Two texels side by side.
+/// A texel and the next one along an axis.
 struct TexelPair {
-    std::size_t first, second;
+    std::size_t first, next;
+    int axis;
+    glm::vec3 from, to;  // their places
 };
 
-/// The pairs whose masks differ, both seeing something, and the rays between them.
-void findPairs(const MaskCell& cell, std::span<const std::uint8_t> masks, int factor, std::vector<TexelPair>& pairs,
-               std::vector<Ray>& rays) {
-    const float beyond = kReachBeyond * cell.texelSize;
+/// Calls body(pair) for all pairs of a cell's texels.
+template <class Body>
+void forPairs(const MaskCell& cell, int factor, const Body& body) {
     for (int z = 0; z < factor; ++z)
         for (int y = 0; y < factor; ++y)
             for (int x = 0; x < factor; ++x)
                 for (int axis = 0; axis < 3; ++axis) {
                     glm::ivec3 next(x, y, z);
                     if (++next[axis] == factor) continue;
-                    const std::size_t a = std::size_t(x + factor * (y + factor * z));
-                    const std::size_t b = std::size_t(next.x + factor * (next.y + factor * next.z));
-                    if (masks[a] == masks[b] || masks[a] == 0 || masks[b] == 0) continue;
-                    pairs.push_back({a, b});
-                    rays.push_back(sightRay(cell.texel(x, y, z), cell.texel(next.x, next.y, next.z), beyond));
+                    body(TexelPair{std::size_t(x + factor * (y + factor * z)),
+                                   std::size_t(next.x + factor * (next.y + factor * next.z)), axis, cell.texel(x, y, z),
+                                   cell.texel(next.x, next.y, next.z)});
                 }
 }
 
-/// Texels that do not see each other keep what both see.
-Result<std::uint64_t> erode(const Tracer& tracer, const MaskCell& cell, unsigned present, int factor,
-                            std::span<std::uint8_t> masks) {
+/// A blind texel sees by what is beside it in the open: behind a thing that hides all probes is still the same room.
+/// Returns the number of rays.
+Result<std::uint64_t> flood(const Tracer& tracer, const MaskCell& cell, int factor, std::span<std::uint8_t> masks) {
+    std::uint64_t count = 0;
+    std::vector<bool> asked(3 * masks.size());
     std::vector<TexelPair> pairs;
     std::vector<Ray> rays;
-    findPairs(cell, masks, factor, pairs, rays);
-    std::vector<std::uint8_t> blocked(rays.size());
-    if (auto traced = tracer.occluded(rays, blocked); !traced) return traced.error();
-    const std::vector<std::uint8_t> before(masks.begin(), masks.end());
+    std::vector<std::uint8_t> blocked;
+    do {
+        pairs.clear();
+        rays.clear();
+        forPairs(cell, factor, [&](const TexelPair& pair) {
+            const std::size_t number = 3 * pair.first + std::size_t(pair.axis);
+            if ((masks[pair.first] == 0) == (masks[pair.next] == 0) || asked[number]) return;
+            asked[number] = true;
+            pairs.push_back(pair);
+            rays.push_back(sightRay(pair.from, pair.to, 0.0f));
+        });
+        count += rays.size();
+        blocked.resize(rays.size());
+        if (auto traced = tracer.occluded(rays, blocked); !traced) return traced.error();
+        const std::vector<std::uint8_t> before(masks.begin(), masks.end());
+        for (std::size_t i = 0; i < pairs.size(); ++i) {
+            if (blocked[i]) continue;
+            const std::size_t blind = before[pairs[i].first] == 0 ? pairs[i].first : pairs[i].next;
+            masks[blind] |= std::uint8_t(before[pairs[i].first] | before[pairs[i].next]);
+        }
+    } while (!pairs.empty());
+    return count;
+}
+
+/// The middle of what is on the way, 0..1; `there` and `back`: what rays from both ends meet.
+float middleOf(const Hit& there, const Hit& back, float length) {
+    const float from = there.valid() ? there.distance : length - back.distance;
+    const float to = back.valid() ? length - back.distance : there.distance;
+    return std::clamp(0.5f * (from + to) / length, 0.0f, 1.0f);
+}
+
+/// Notes the walls between texels that see different clusters. Returns the number of rays, there and back.
+Result<std::uint64_t> findWalls(const Tracer& tracer, const MaskCell& cell, std::span<const std::uint8_t> masks,
+                                int factor, std::span<std::uint32_t> texels) {
+    std::vector<TexelPair> pairs;
+    std::vector<Ray> rays;
+    forPairs(cell, factor, [&](const TexelPair& pair) {
+        if (masks[pair.first] == masks[pair.next]) return;
+        pairs.push_back(pair);
+        rays.push_back(sightRay(pair.from, pair.to, 0.0f));
+        rays.push_back(sightRay(pair.to, pair.from, 0.0f));
+    });
+    std::vector<Hit> hits(rays.size());
+    if (auto traced = tracer.closestHits(rays, hits); !traced) return traced.error();
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (!blocked[i]) continue;
-        masks[pairs[i].first] &= before[pairs[i].second];
-        masks[pairs[i].second] &= before[pairs[i].first];
+        const Hit &there = hits[2 * i], &back = hits[2 * i + 1];
+        if (!there.valid() && !back.valid()) continue;
+        const float place = middleOf(there, back, rays[2 * i].far);
+        texels[pairs[i].first] |= (1u + std::uint32_t(place * 14.0f + 0.5f)) << (4 + 4 * pairs[i].axis);
     }
-    for (std::uint8_t& mask : masks)
-        if ((mask & present) == 0) mask = 0;
     return std::uint64_t(rays.size());
 }
 
@@ -109,26 +149,30 @@ Result<MaskTexels> solveMasks(const Context& context, const Tracer& tracer, cons
                               const ProbeSight& sight, const Clusters& clusters, int factor, bool strict) {
     const std::vector<std::array<float, 8>> weights = texelWeights(factor);
     MaskTexels result;
-    result.masks.resize(sight.seen.size());
+    result.texels.resize(sight.seen.size());
     std::vector<CellSums> sums(cells.blocked.size());
     Progress progress(context, "solving masks", double(cells.blocked.size()));
     const auto solveCell = [&](std::size_t c) -> Result<void> {
         const CellSolver solver(cells.blocked[c], clusters, strict);
         const auto seen = std::span(sight.seen).subspan(c * weights.size(), weights.size());
-        const auto masks = std::span(result.masks).subspan(c * weights.size(), weights.size());
+        const auto texels = std::span(result.texels).subspan(c * weights.size(), weights.size());
+        std::vector<std::uint8_t> masks(weights.size());
         CellSums& sum = sums[c];
         for (std::size_t t = 0; t < weights.size(); ++t) {
             masks[t] = solver.solve(seen[t], weights[t]);
             sum.residual += solver.residual(seen[t], masks[t], weights[t]);
             sum.leaking += solver.residual(seen[t], 255, weights[t]);
         }
-        const auto rays = erode(tracer, cells.blocked[c], solver.present(), factor, masks);
-        if (!rays) return rays.error();
-        sum.rays = std::uint32_t(*rays);
-        for (const std::uint8_t mask : masks) {
-            sum.seenClusters += std::uint32_t(std::popcount(mask & solver.present()));
-            sum.blind += mask == 0;
+        const auto flooded = flood(tracer, cells.blocked[c], factor, masks);
+        if (!flooded) return flooded.error();
+        for (std::size_t t = 0; t < masks.size(); ++t) {
+            texels[t] = texelOf(masks[t]);
+            sum.seenClusters += std::uint32_t(std::popcount(masks[t] & solver.present()));
+            sum.blind += masks[t] == 0;
         }
+        const auto walls = findWalls(tracer, cells.blocked[c], masks, factor, texels);
+        if (!walls) return walls.error();
+        sum.rays = std::uint32_t(*flooded + *walls);
         return {};
     };
     auto solved = tryParallelFor(context, cells.blocked.size(), 4, [&](std::size_t begin, std::size_t end) {

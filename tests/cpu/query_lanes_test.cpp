@@ -100,7 +100,7 @@ public:
 
 private:
     static constexpr int kSlots = 3 * 5 * 6 * 4;  // for up to three volumes
-    static constexpr int kMaskTexels = 3, kCubeWords = 7, kCubes = 9;
+    static constexpr int kMaskTexels = 3, kCubeWords = 27, kCubes = 9;
 
     // Eight clusters; a third of the cubes sees all, another nothing, the others what chance has it.
     void makeMasks() {

@@ -27,7 +27,7 @@ struct FormulaField {
     int rules = kRulesMeasured;
     int guard = kNone;
     float selfShadowBias = 0.3f;
-    int maskTexels = 2;
+    int maskTexels = 2, maskPacked = 0;
     std::function<vec3(int, vec3)> radiance = [](int, vec3) { return vec3(1.0f); };
     std::function<vec2(int, vec3)> moments = [](int, vec3) { return vec2(1.0f, 1.0f); };
     std::function<float(int)> backs = [](int) { return 0.0f; };

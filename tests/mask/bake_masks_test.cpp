@@ -1,8 +1,6 @@
 // Baking masks: what places see, against closed forms and direct visibility.
 #include <gmock/gmock.h>
 
-#include <bit>
-
 #include "halls.h"
 #include "kernels/guards/masks.h"
 #include "probegi/builtin_scenes.h"
@@ -20,65 +18,69 @@ void forCells(const VolumeDesc& v, const Body& body) {
             for (int x = 0; x + 1 < v.counts.x; ++x) body(x + v.counts.x * (y + v.counts.y * z), glm::ivec3(x, y, z));
 }
 
-int cornerSlot(const VolumeDesc& v, int lowest, int corner) {
-    return lowest + (corner & 1) + v.counts.x * ((corner >> 1 & 1) + v.counts.y * (corner >> 2));
-}
-
-bool visible(const Tracer& tracer, glm::vec3 from, glm::vec3 to) {
-    const Ray ray = sightRay(from, to, 0.0f);
+/// One ray; batches may decide otherwise for rays that graze an edge.
+bool visible(const Halls& halls, const MaskCell& cell, std::size_t corner, glm::ivec3 texel) {
+    const Ray ray = sightRay(cell.probe[corner], cell.texel(texel.x, texel.y, texel.z), 0.0f);
     std::uint8_t blocked = 0;
-    EXPECT_TRUE(tracer.occluded(std::span(&ray, 1), std::span(&blocked, 1)));
+    EXPECT_TRUE(halls.tracer->occluded(std::span(&ray, 1), std::span(&blocked, 1)));
     return blocked == 0;
 }
 
 TEST(BakeMasks, eightClustersAreVisibilityItself) {
     const Halls halls(0.17f);
-    const FieldDesc field = Halls::field();
-    const VolumeDesc& v = field.volumes[0];
     const auto masks = halls.bake({.clusters = 8, .factor = 4});
     EXPECT_EQ(masks->report().residual, 0);
-    int agree = 0, less = 0, more = 0;
-    forCells(v, [&](int lowest, glm::ivec3 base) {
+    int hidden = 0, seen = 0, differ = 0;
+    for (const MaskCell& cell : findMaskCells(Halls::field(), {.factor = 4, .occluders = halls.occluders}, {}).blocked)
         for (int t = 0; t < 64; ++t) {
             const glm::ivec3 texel(t & 3, t >> 2 & 3, t >> 4);
-            const glm::vec3 place = v.origin + (glm::vec3(base) + glm::vec3(texel) / 3.0f) * v.spacing;
-            for (int corner = 0; corner < 8; ++corner) {
-                const int slot = cornerSlot(v, lowest, corner);
-                const bool seen = visible(*halls.tracer, probePosition(v, slot), place);
-                const bool masked = (maskAt(*masks, lowest, texel) >> masks->cluster(slot) & 1u) != 0;
-                agree += seen == masked;
-                less += seen && !masked;
-                more += masked && !seen;
+            for (std::size_t corner = 0; corner < 8; ++corner) {
+                const bool there = visible(halls, cell, corner, texel);
+                const bool masked =
+                    (maskAt(*masks, cell.slot[0], texel) >> masks->cluster(cell.slot[corner]) & 1u) != 0;
+                ++(there ? seen : hidden);
+                // A texel on a probe sees no more than others there do.
+                differ += there != masked && cell.probe[corner] != cell.texel(texel.x, texel.y, texel.z);
             }
         }
-    });
-    // Beside the wall, texels keep only what both sides see. (0.4 m from both: 1 of 3 texels; of 7 x 5 x 7 cells.)
-    EXPECT_EQ(more, 0);
-    EXPECT_LT(less, 0.1 * agree);
-    EXPECT_GT(less, 0) << "the wall has no thickness, so some texels must be on neither side";
+    EXPECT_GT(hidden, 10'000);
+    EXPECT_GT(seen, 10'000);
+    EXPECT_LE(differ, (hidden + seen) / 1000);
 }
 
 TEST(BakeMasks, noTexelSeesBothSidesOfAWall) {
     const Halls halls(0.17f);
-    const FieldDesc field = Halls::field();
-    const VolumeDesc& v = field.volumes[0];
-    for (const int clusters : {2, 3, 4, 6, 8}) {
+    const auto inside = [](glm::vec3 at) { return std::abs(at.x) < 2 && std::abs(at.z) < 2 && at.y > 0 && at.y < 3; };
+    for (const int clusters : {4, 6, 8}) {
         const auto masks = halls.bake({.clusters = clusters, .factor = 6});
-        forCells(v, [&](int lowest, glm::ivec3 base) {
+        int leaks = 0, parted = 0;
+        for (const MaskCell& cell : findMaskCells(Halls::field(), {.factor = 6}, halls.tracer->bounds()).blocked)
             for (int t = 0; t < 216; ++t) {
                 const glm::ivec3 texel(t % 6, t / 6 % 6, t / 36);
-                const glm::vec3 place = v.origin + (glm::vec3(base) + glm::vec3(texel) / 5.0f) * v.spacing;
-                for (int corner = 0; corner < 8; ++corner) {
-                    const int slot = cornerSlot(v, lowest, corner);
-                    const bool across = (place.x < 0.17f) != (probePosition(v, slot).x < 0.17f);
-                    if (across && (maskAt(*masks, lowest, texel) >> masks->cluster(slot) & 1u)) {
-                        ADD_FAILURE() << clusters << " clusters, cell " << lowest << ", texel " << t;
-                        return;
-                    }
+                const glm::vec3 place = cell.texel(texel.x, texel.y, texel.z);
+                for (std::size_t i = 0; i < 8; ++i) {
+                    if (!inside(place) || !inside(cell.probe[i])) continue;
+                    if ((place.x < 0.17f) == (cell.probe[i].x < 0.17f)) continue;
+                    ++parted;
+                    leaks += maskAt(*masks, cell.slot[0], texel) >> masks->cluster(cell.slot[i]) & 1u;
                 }
             }
-        });
+        EXPECT_GT(parted, 5000);
+        EXPECT_EQ(leaks, 0) << clusters << " clusters";
     }
+}
+
+TEST(BakeMasks, wallsBetweenTexelsHaveTheirPlace) {
+    // Cells begin at x = -2.3 + 0.7 i; texels are 0.1 m apart. The wall is 0.03 m beyond texel 3 of cell 3.
+    const Halls halls(0.13f);
+    const auto masks = halls.bake({.clusters = 8});
+    const VolumeDesc v = Halls::field().volumes[0];
+    const int slot = 3 + v.counts.x * (2 + v.counts.y * 3);
+    for (int x = 0; x < 7; ++x) {
+        const unsigned place = texelAt(*masks, slot, {x, 3, 3}) >> 4 & 15u;
+        EXPECT_EQ(place, x == 3 ? 1u + 4u : 0u) << x;  // 0.3 of 14
+    }
+    EXPECT_EQ(texelAt(*masks, slot, {3, 3, 3}) >> 8 & 0xffu, 0u) << "along the wall there is none";
 }
 
 TEST(BakeMasks, withoutGeometryAllIsSeen) {
@@ -86,7 +88,7 @@ TEST(BakeMasks, withoutGeometryAllIsSeen) {
     const Halls none(std::move(scene), 1);
     const auto masks = none.bake();
     EXPECT_EQ(masks->report().cubes, 1u);
-    forCells(masks->volumes()[0], [&](int lowest, glm::ivec3) { EXPECT_EQ(maskAt(*masks, lowest, {3, 4, 5}), 255u); });
+    forCells(masks->volumes()[0], [&](int lowest, glm::ivec3) { EXPECT_EQ(texelAt(*masks, lowest, {3, 4, 5}), 15u); });
     for (int slot = 0; slot < probeCount(Halls::field()); ++slot) EXPECT_LT(masks->cluster(slot), 4);
 }
 
@@ -118,7 +120,14 @@ TEST(BakeMasks, cellsAwayFromOccludersNeedNoRays) {
     const auto all = bakeMasks(halls.context, *halls.tracer, Halls::field(), desc).value();
     EXPECT_LT(some->report().blocked, all->report().blocked);
     EXPECT_LT(some->report().rays, all->report().rays);
-    EXPECT_TRUE(std::equal(some->words().begin(), some->words().end(), all->words().begin(), all->words().end()));
+    // Their cubes come in another order.
+    forCells(some->volumes()[0], [&](int lowest, glm::ivec3) {
+        ASSERT_EQ(some->cluster(lowest), all->cluster(lowest));
+        for (int t = 0; t < 64; ++t) {
+            const glm::ivec3 texel(t & 3, t >> 2 & 3, t >> 4);
+            ASSERT_EQ(texelAt(*some, lowest, texel), texelAt(*all, lowest, texel)) << lowest;
+        }
+    });
 }
 
 TEST(BakeMasks, areTheSameForAnyNumberOfThreads) {
@@ -140,7 +149,7 @@ TEST(BakeMasks, moreClustersLeaveLess) {
         EXPECT_GT(report.meanClusters, 0);
         last = report.residual;
         if (clusters == 4) {
-            EXPECT_LT(report.residual, 0.006);
+            EXPECT_LT(report.residual, 0.01);
         }
     }
     EXPECT_EQ(last, 0);
@@ -151,22 +160,54 @@ TEST(BakeMasks, strictSeesAllProbesOfAClusterOrNone) {
     FieldDesc field;
     const glm::vec3 size = halls.pose.bounds.size();
     field.volumes = {{halls.pose.bounds.lower, size / glm::vec3(11, 7, 11), {12, 8, 12}}};
-    const VolumeDesc& v = field.volumes[0];
     const auto masks = halls.bake({.clusters = 3, .factor = 4, .strict = true}, field);
-    int leaks = 0;
-    forCells(v, [&](int lowest, glm::ivec3 base) {
+    const MaskCells cells = findMaskCells(field, {.factor = 4, .occluders = halls.occluders}, {});
+    const ProbeSight sight = traceProbeSight(halls.context, *halls.tracer, field, cells, 4).value();
+    int used = 0, leaks = 0;
+    for (std::size_t c = 0; c < cells.blocked.size(); ++c)
         for (int t = 0; t < 64; ++t) {
-            const glm::ivec3 texel(t & 3, t >> 2 & 3, t >> 4);
-            const glm::vec3 place = probePosition(v, lowest) + glm::vec3(texel) / 3.0f * v.spacing;
-            for (int corner = 0; corner < 8; ++corner) {
-                const int slot = cornerSlot(v, lowest, corner);
-                leaks += (maskAt(*masks, lowest, texel) >> masks->cluster(slot) & 1u) &&
-                         !visible(*halls.tracer, probePosition(v, slot), place);
+            const MaskCell& cell = cells.blocked[c];
+            const unsigned mask = maskAt(*masks, cell.slot[0], glm::ivec3(t & 3, t >> 2 & 3, t >> 4));
+            const unsigned seen = sight.seen[64 * c + std::size_t(t)];
+            unsigned missed[3] = {}, whole = 0;
+            for (std::size_t i = 0; i < 8; ++i) missed[masks->cluster(cell.slot[i])] |= ~seen & 1u << i;
+            for (std::size_t i = 0; i < 8; ++i) whole |= missed[masks->cluster(cell.slot[i])] == 0 ? 1u : 0u;
+            if (whole == 0) continue;  // what sees no cluster goes by its neighbours
+            for (std::size_t i = 0; i < 8; ++i) {
+                if (!(mask >> masks->cluster(cell.slot[i]) & 1u)) continue;
+                ++used;
+                leaks += !(seen >> i & 1);
             }
         }
-        (void)base;
-    });
     EXPECT_EQ(leaks, 0);
+    EXPECT_GT(used, 10'000);
+    EXPECT_GT(halls.bake({.clusters = 3, .factor = 4}, field)->report().residual, 0) << "this could leak";
+}
+
+TEST(BakeMasks, behindThingsARoomIsStillTheRoom) {
+    // A cell of 2 m, and in it a board that hides all its probes from what is below; open all around.
+    Scene scene;
+    scene.materials.resize(1);
+    Primitive boards;
+    addBox(boards, {0.3f, 0.55f, 0.3f}, {1.7f, 0.6f, 1.7f});
+    addBox(boards, {0.3f, 0.1f, 0.3f}, {1.7f, 0.15f, 1.7f});
+    addBox(boards, {0.3f, 0.1f, 0.3f}, {0.35f, 0.6f, 1.7f});
+    addBox(boards, {1.65f, 0.1f, 0.3f}, {1.7f, 0.6f, 1.7f});
+    addBox(boards, {0.3f, 0.1f, 0.3f}, {1.7f, 0.6f, 0.35f});
+    addObject(scene, std::move(boards));
+    const Halls open(std::move(scene), 1);
+    FieldDesc cell;
+    cell.volumes = {{glm::vec3(0), glm::vec3(2), {2, 2, 2}}};
+    const auto masks = open.bake({.clusters = 8}, cell);
+    // The texel (4, 1, 3) is at (1.14, 0.29, 0.86), in a box that is open towards +z.
+    EXPECT_NE(maskAt(*masks, 0, {4, 1, 3}), 0u);
+    // Where the box is closed as well, nothing reaches it.
+    Scene closed;
+    closed.materials.resize(1);
+    Primitive box;
+    addBox(box, {0.3f, 0.1f, 0.3f}, {1.7f, 0.6f, 1.7f});
+    addObject(closed, std::move(box));
+    EXPECT_EQ(maskAt(*Halls(std::move(closed), 1).bake({.clusters = 8}, cell), 0, {4, 1, 3}), 0u);
 }
 
 TEST(BakeMasks, linksTellWhichNeighboursAProbeSees) {

@@ -6,13 +6,15 @@
 
 namespace probegi::test {
 
-/// A hall of 4 x 3 x 4 m about the origin, divided by a wall that stands across x at `wall`, without thickness.
+/// A hall of 4 x 3 x 4 m about the origin, divided by a wall of a centimetre that stands across x at `wall`.
 struct Halls {
+    static constexpr float kHalfWall = 0.005f;
+
     explicit Halls(float wall = 0.0f, int threads = 1) : context(*Context::create({.threads = threads})) {
         scene.materials.resize(1);
         Primitive room, divider;
         addRoom(room, {-2, 0, -2}, {2, 3, 2});
-        addQuad(divider, {wall, 0, -2}, {0, 0, 4}, {0, 3, 0});
+        addBox(divider, {wall - kHalfWall, -0.01f, -2.01f}, {wall + kHalfWall, 3.01f, 2.01f});
         addObject(scene, std::move(room));
         addObject(scene, std::move(divider));
         finish();
@@ -49,11 +51,18 @@ struct Halls {
     std::vector<Bounds> occluders;
 };
 
+/// The word of a texel of the cell whose lowest probe is in a slot.
+inline std::uint32_t texelAt(const Masks& masks, int slot, glm::ivec3 texel) {
+    const std::size_t first = masks.words()[2 * std::size_t(slot)];
+    const int t = texel.x + masks.factor() * (texel.y + masks.factor() * texel.z);
+    if (!masks.packed()) return masks.words()[first + std::size_t(t)];
+    return masks.words()[first + std::size_t(t) / 2] >> (16 * (t % 2)) & 0xffffu;
+}
+
 /// The mask at a texel of the cell whose lowest probe is in a slot.
 inline unsigned maskAt(const Masks& masks, int slot, glm::ivec3 texel) {
-    const std::uint32_t first = masks.words()[2 * std::size_t(slot)];
-    const int t = texel.x + masks.factor() * (texel.y + masks.factor() * texel.z);
-    return masks.words()[first + std::uint32_t(t) / 4] >> (8 * (t % 4)) & 255u;
+    const std::uint32_t word = texelAt(masks, slot, texel);
+    return (word & 15u) | (word >> 12 & 0xf0u);
 }
 
 }  // namespace probegi::test

@@ -23,7 +23,7 @@ struct SnapshotAccess : VolumeAccess {
     int rules;
     int guard;
     float selfShadowBias;
-    int maskTexels;
+    int maskTexels, maskPacked;
     std::span<const std::uint32_t> masks;
     const FieldSnapshot& probes;
     std::span<const kernels::Volume> volumes;
@@ -160,6 +160,7 @@ glm::vec3 PlainField::irradiance(const FieldSettings& settings, const FieldQuery
                                 guardNumber(settings.guard),
                                 settings.selfShadowBias,
                                 settings.masks ? settings.masks->factor() : 2,
+                                settings.masks && settings.masks->packed() ? 1 : 0,
                                 settings.masks ? settings.masks->words() : std::span<const std::uint32_t>(),
                                 m_probes,
                                 m_volumes,

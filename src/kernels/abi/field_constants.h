@@ -41,6 +41,7 @@ struct FieldConstants {
     RaySet rays;     // of the coming update
     uvec2 masks;     // address of the words of kernels/guards/masks.h; 0: none
     int maskTexels;  // along a cell's edge
+    int maskPacked;  // 1: two texels to a word
 };
 
 KERNELS_END

@@ -24,7 +24,8 @@
 //     Real givenVisibility(Access access, int corner)
 //
 //     // With the guard of masks (guards/masks.h has the layout):
-//     int maskTexels;                                        // a member: along a cell's edge
+//     int maskTexels;                                        // members: along a cell's edge
+//     int maskPacked;                                        // whether two texels share a word
 //     Int maskWord(Access access, Int number)
 //     void countFallback(Access access)                      // called by a look-up whose cage has too little weight
 //
@@ -52,12 +53,14 @@ KERNELS_BEGIN
 struct GuardPoint {
     Int low;
     Int high;
+    Real scale;
 };
 
 KERNEL_FN GuardPoint noGuardPoint() {
     GuardPoint point;
     point.low = Int(0);
     point.high = Int(0);
+    point.scale = Real(0.0f);
     return point;
 }
 

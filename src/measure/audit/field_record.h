@@ -41,7 +41,7 @@ public:
     int rules;
     int guard;
     float selfShadowBias;
-    int maskTexels;
+    int maskTexels, maskPacked;
 
     RecordAccess(const FieldRecord& record, const LeftOut& out);
     /// The same field with a light of 1 (before decoding) in some probes and none in the others: what it answers is

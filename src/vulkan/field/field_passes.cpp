@@ -119,7 +119,8 @@ kernels::FieldConstants FieldPasses::constants(const FieldSettings& settings) co
         .blending = blending(settings),
         .rays = m_rays,
         .masks = packAddress(m_masks.address()),
-        .maskTexels = settings.masks ? settings.masks->factor() : 2};
+        .maskTexels = settings.masks ? settings.masks->factor() : 2,
+        .maskPacked = settings.masks && settings.masks->packed() ? 1 : 0};
     std::copy(m_volumes.begin(), m_volumes.end(), c.volumes);
     return c;
 }

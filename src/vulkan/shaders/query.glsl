@@ -109,6 +109,7 @@ struct Access {
     int guard;
     float selfShadowBias;
     int maskTexels;
+    int maskPacked;
 };
 #define MapPoint vec2
 
@@ -118,6 +119,7 @@ Access probegiAccess() {
     access.guard = probegiField.guard;
     access.selfShadowBias = probegiField.selfShadowBias;
     access.maskTexels = probegiField.maskTexels;
+    access.maskPacked = probegiField.maskPacked;
     return access;
 }
 vec2 visibilityPoint(Access access, vec3 direction) {

@@ -11,6 +11,7 @@ struct Access {
     int guard;
     float selfShadowBias;
     int maskTexels;
+    int maskPacked;
     float walls;  // share of backs of every third probe
 #ifdef __cplusplus
     using MapPoint = vec3;
@@ -26,6 +27,7 @@ KERNEL_FN Access accessTo(int rules, int guard, float walls) {
     access.guard = guard;
     access.selfShadowBias = 0.3f;
     access.maskTexels = 5;
+    access.maskPacked = 0;
     access.walls = walls;
     return access;
 }

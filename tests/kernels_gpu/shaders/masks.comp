@@ -23,6 +23,7 @@ void evaluate(INOUT(Lane) lane) {
     GuardPoint some;
     some.low = 0x10203040;
     some.high = 0x01700078;
+    some.scale = 0.01f;
     give(lane, masksSeen(access, v, 5, fromProbe, some), 1e-6f);
     give(lane, masksSeen(access, v, 5, fromProbe, noGuardPoint()), 5e-4f);
     give(lane, masksBetween(access, v, 5, 3, axisPoint(access, v, 1, true), 1.0f), 0.0f);
