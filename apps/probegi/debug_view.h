@@ -23,6 +23,9 @@ struct ShownPoint {
     glm::vec3 normal, toViewer;
 };
 
+/// In what colours probes shine while a view is drawn, instead of in the light that they know.
+enum class Paint { none, probes, clusters };
+
 /// A picture of what a field does at the surfaces that a camera sees, or of its probes as balls: --debug NAME. A new
 /// one is a row of debugViews(). Colours are display values, 0..1.
 struct DebugView {
@@ -31,7 +34,7 @@ struct DebugView {
     bool needsLight;                                       ///< the probes must have been updated
     glm::vec3 (*colour)(const Field&, const ShownPoint&);  ///< of a surface; null: grey
     glm::vec3 (*ball)(const ShownProbe&);                  ///< of a probe; null: probes are not shown
-    bool paints = false;  ///< meanwhile each probe shines in a colour of its own instead of the light that it knows
+    Paint paint = Paint::none;
 };
 
 std::span<const DebugView> debugViews();
@@ -40,7 +43,8 @@ std::span<const DebugView> debugViews();
 const DebugView* findDebugView(const std::string& name);
 
 /// Draws a view, with some shading so that shapes can be told; linear values, of which a PNG shows `colour`. Sky is
-/// black. The field is afterwards as it was. Errors: outOfMemory, and those of the tracer and of Field::write.
+/// black. The field is afterwards as it was. Errors: invalidArgument (clusters without masks), outOfMemory, and those
+/// of the tracer and of Field::write.
 Result<HdrImage> drawDebugView(const DebugView& view, Field& field, const Tracer& tracer, const PlacedCamera& camera,
                                int width, int height);
 

@@ -137,8 +137,8 @@ TEST(MaskedField, bouncesStayOnTheirSide) {
     };
     FieldSetup leaking = masked(halls.bake());
     leaking.guard = LeakGuard::none;
-    EXPECT_GT(light(leaking), 0.05);
-    EXPECT_LT(light(masked(halls.bake())), 0.005);
+    EXPECT_GT(light(leaking), 0.01);
+    EXPECT_LT(light(masked(halls.bake())), 1e-5);
 }
 
 TEST(MaskedField, refusesWhatDoesNotFit) {

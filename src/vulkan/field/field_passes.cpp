@@ -3,12 +3,10 @@
 #include <limits>
 
 #include "core/sentence.h"
-#include "field/guard_number.h"
 #include "field/probe_emitters.h"
 #include "field/volume_access.h"
 #include "kernels/lookup/probe_query.h"
 #include "kernels/probe/solid_probe.h"
-#include "probegi/masks.h"
 #include "vulkan/device/errors.h"
 #include "vulkan/field/pool_tiles.h"
 #include "vulkan/scene/gpu_lighting_impl.h"
@@ -99,41 +97,6 @@ FieldPasses::FieldPasses(const Device& device, const FieldDesc& desc)
     m_irradiance = makeAtlas(device, "irradiance", kIrradianceFormat, shape, desc.irradianceTexels);
     m_visibility = makeAtlas(device, "visibility", kVisibilityFormat, shape, desc.visibilityTexels);
     writeSet();
-}
-
-kernels::FieldConstants FieldPasses::constants(const FieldSettings& settings) const {
-    const auto texelSize = [](const Image& image) {
-        return glm::vec2(1.0f / float(image.size().width), 1.0f / float(image.size().height));
-    };
-    kernels::FieldConstants c{
-        .volumeCount = int(m_volumes.size()),
-        .guard = guardNumber(settings.guard),
-        .rules = m_desc.rules == FieldRules::paper ? kernels::kRulesPaper : kernels::kRulesMeasured,
-        .selfShadowBias = settings.selfShadowBias,
-        .irradianceTexels = m_desc.irradianceTexels,
-        .visibilityTexels = m_desc.visibilityTexels,
-        .tiles = m_tiles,
-        .irradianceTexelSize = texelSize(m_irradiance),
-        .visibilityTexelSize = texelSize(m_visibility),
-        .volumes = {},
-        .blending = blending(settings),
-        .rays = m_rays,
-        .masks = packAddress(m_masks.address()),
-        .maskTexels = settings.masks ? settings.masks->factor() : 2,
-        .maskPacked = settings.masks && settings.masks->packed() ? 1 : 0};
-    std::copy(m_volumes.begin(), m_volumes.end(), c.volumes);
-    return c;
-}
-
-kernels::VolumeBlending FieldPasses::blending(const FieldSettings& settings) const {
-    const VolumeOrder order = volumeOrder(m_desc, settings, m_byDensity);
-    kernels::VolumeBlending b{.camera = order.camera,
-                              .tracking = order.tracking,
-                              .outsideRadiance = order.outsideRadiance,
-                              .outsideFades = order.outsideFades ? 1 : 0,
-                              .order = {}};
-    std::copy(m_byDensity.begin(), m_byDensity.end(), b.order);
-    return b;
 }
 
 void FieldPasses::writeSet() {
@@ -234,17 +197,6 @@ void FieldPasses::recordClear(const Recorder& recorder, const FieldSettings& set
     m_rays = rays;
     recordConstants(recorder, settings);
     recorder.orderAll();
-}
-
-// Earlier passes with other masks have run: fields whose passes are only recorded have none (GpuField).
-void FieldPasses::recordConstants(const Recorder& recorder, const FieldSettings& settings) {
-    if (settings.guard == LeakGuard::masks && settings.masks != m_recordedMasks) {
-        const auto words = std::as_bytes(settings.masks->words());
-        m_masks = Buffer(m_device.impl(), "masks", words.size(), kAddressed);
-        recorder.write(m_masks, words);
-        m_recordedMasks = settings.masks;
-    }
-    recorder.write(m_constants, bytesOf(constants(settings)));
 }
 
 void FieldPasses::recordEnter(const Recorder& recorder, const FieldSettings& settings, int volume, glm::ivec3 cells) {
@@ -349,14 +301,6 @@ void FieldPasses::recordPlacements(const Recorder& recorder, const FieldSettings
     recorder.dispatchOver("set_placements", m_layout.probes);
     recorder.orderAll();
     m_recordedTasks.reset();  // origins are elsewhere
-}
-
-void FieldPasses::recordSettings(const Recorder& recorder, const FieldSettings& settings) {
-    if (settings == m_recordedSettings) return;
-    recorder.orderAll();
-    recordConstants(recorder, settings);
-    m_recordedSettings = settings;
-    recorder.orderAll();
 }
 
 // Writes the task list if it has changed, then the sizes of the dispatches over it.

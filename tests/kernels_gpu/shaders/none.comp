@@ -10,6 +10,6 @@ void evaluate(INOUT(Lane) lane) {
     const Access access = accessTo(takeIndex(lane, 2), 0, 0.0f);
     const vec3 fromProbe = takeVector(lane, -3.0f, 3.0f);
     give(lane, noneSeen(access, v, 3, fromProbe, noGuardPoint()), 0.0f);
-    give(lane, noneBetween(access, v, 3, fromProbe, 1.0f), 0.0f);
+    give(lane, noneBetween(access, v, 3, 1, fromProbe, 1.0f), 0.0f);
     give(lane, noneFar(access, v, 3, fromProbe), 0.0f);
 }
