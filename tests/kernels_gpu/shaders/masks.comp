@@ -10,8 +10,8 @@ void evaluate(INOUT(Lane) lane) {
     const Access access = accessTo(kRulesMeasured, 2, 0.0f);
     const vec3 fromProbe = takeVector(lane, -1.0f, 1.0f);
     const int cube = takeIndex(lane, 1000);
-    const vec3 texel =
-        vec3(takeBetween(lane, 0.0f, 4.0f), takeBetween(lane, 0.0f, 4.0f), takeBetween(lane, 0.0f, 4.0f));
+    const vec3 texel = takeVector(lane, 0.0f, 4.0f);
+    const float high = takeUnit(lane);
     giveBits(lane, uint(maskCluster(cube)));
     giveBits(lane, uint(spreadBits(cube & 15)));
     // Weights are rounded to 1/120: two eighths of a texel may fall on either side.
@@ -20,6 +20,17 @@ void evaluate(INOUT(Lane) lane) {
     const Cage cage = takeCage(lane, v);
     const GuardPoint there = masksPoint(access, v, cage, cube);
     for (int cluster = 0; cluster < 8; ++cluster) give(lane, maskOf(there, cluster), 0.02f);
+    giveBits(lane, uint(maskTexel(access, cube, 3)));
+    give(lane, sideFactor(high, cube & 1), 1e-6f);
+    float places = 0.25f;
+    float weights = 0.5f;
+    addWall(cube, 4, high, places, weights);
+    give(lane, places, 1e-6f);
+    give(lane, weights, 1e-6f);
+    // Far from the wall, where rounding could choose another side.
+    give(lane, onItsSide(high * 0.3f, 0.4f, high + 0.5f), 0.0f);
+    give(lane, onItsSide(0.9f, 0.1f * high, high), 0.0f);
+    give(lane, onItsSide(high, 0.0f, 0.01f), 0.0f);
     GuardPoint some;
     some.low = 0x10203040;
     some.high = 0x01700078;
