@@ -24,8 +24,9 @@ std::vector<std::string> darkRoom(const std::string& picture, std::vector<std::s
 }
 
 double brightness(const std::string& picture) {
+    const HdrImage image = readImage(picture).value();
     double sum = 0;
-    for (const glm::vec3& pixel : readImage(picture).value().pixels) sum += double(pixel.x);
+    for (const glm::vec3& pixel : image.pixels) sum += double(pixel.x);
     return sum;
 }
 
