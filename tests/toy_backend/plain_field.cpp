@@ -12,6 +12,7 @@
 #include "kernels/lookup/volume_blend.h"
 #include "kernels/probe/octahedral_texel.h"
 #include "kernels/probe/probe_texel.h"
+#include "probegi/masks.h"
 
 namespace probegi::test {
 
