@@ -78,7 +78,7 @@ void forPairs(const MaskCell& cell, int factor, const Body& body) {
 }
 
 /// A blind texel sees by what is beside it in the open: behind a thing that hides all probes is still the same room.
-/// Returns the number of rays.
+/// Rays reach a little beyond it: one that lies on a wall stays blind. Returns the number of rays.
 Result<std::uint64_t> flood(const Tracer& tracer, const MaskCell& cell, int factor, std::span<std::uint8_t> masks) {
     std::uint64_t count = 0;
     std::vector<bool> asked(3 * masks.size());
@@ -93,7 +93,9 @@ Result<std::uint64_t> flood(const Tracer& tracer, const MaskCell& cell, int fact
             if ((masks[pair.first] == 0) == (masks[pair.next] == 0) || asked[number]) return;
             asked[number] = true;
             pairs.push_back(pair);
-            rays.push_back(sightRay(pair.from, pair.to, 0.0f));
+            const bool ahead = masks[pair.next] == 0;
+            rays.push_back(
+                sightRay(ahead ? pair.from : pair.to, ahead ? pair.to : pair.from, kReachBeyond * cell.texelSize));
         });
         count += rays.size();
         blocked.resize(rays.size());

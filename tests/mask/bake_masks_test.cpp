@@ -210,6 +210,24 @@ TEST(BakeMasks, behindThingsARoomIsStillTheRoom) {
     EXPECT_EQ(maskAt(*Halls(std::move(closed), 1).bake({.clusters = 8}, cell), 0, {4, 1, 3}), 0u);
 }
 
+TEST(BakeMasks, texelsOnAWallAreOnNoSide) {
+    // A sheet across the middle texels of a cell, which it passes exactly.
+    Scene scene;
+    scene.materials.resize(1);
+    Primitive sheet;
+    addQuad(sheet, {0.5f, -1, -1}, {0, 0, 3}, {0, 3, 0});
+    addObject(scene, std::move(sheet));
+    const Halls halls(std::move(scene), 1);
+    const auto masks = halls.bake({.clusters = 8, .factor = 5}, FieldDesc{});  // one cell, from 0 to 1
+    unsigned left = 0;
+    for (int slot = 0; slot < 8; slot += 2) left |= 1u << masks->cluster(slot);
+    for (int t = 0; t < 125; ++t) {
+        const glm::ivec3 texel(t % 5, t / 5 % 5, t / 25);
+        const unsigned mask = maskAt(*masks, 0, texel);
+        EXPECT_EQ(mask, texel.x < 2 ? left : texel.x > 2 ? ~left & 255u : 0u) << t;
+    }
+}
+
 TEST(BakeMasks, linksTellWhichNeighboursAProbeSees) {
     const Halls halls(0.17f);
     const FieldDesc field = Halls::field();

@@ -7,9 +7,9 @@
 // The words (maskWord() of lookup/access.h): of each slot two, then the cubes.
 //   2 slot      number of the first word of the cube of the cell whose lowest probe is in the slot
 //   2 slot + 1  bits 0 to 2: the probe's cluster; bit 8 + 2 axis + up: the probe sees the next one along the axis
-//   cubes       texels, x fastest, maskTexels an axis from face to face of the cell, a word each; with maskPacked two
-//   to
-//               a word, the lower half first, which have clusters 0 to 3 only
+//   cubes       texels, x fastest, maskTexels an axis from face to face of the cell;
+//               a word each, or, with maskPacked, half a word, the lower half first:
+//               these have clusters 0 to 3 only
 //   texel       bits 0 to 3 and 16 to 19: it sees clusters 0 to 3 and 4 to 7; no bit: it is blind
 //               bits 4 to 7, 8 to 11, 12 to 15: on the way to the next texel along x, y, z is a wall beyond which
 //               others are seen: 1 to 15 for 0 to 1 of the way; 0: there is none
