@@ -23,8 +23,8 @@ struct MaskDesc {
                        ///< (eq. 4), and masks are the visibility itself; fewer let a point blend probes of one cluster
                        ///< of which it sees only most
     int factor = 8;    ///< texels along the edge of a cell, both of its faces included, 2..16
-    /// No leak: a cluster counts only where a point sees all its probes in the cell. With fewer than 6 clusters many
-    /// points then see none, and go by the distance moments.
+    /// No leak, blind places apart: a cluster counts only where a point sees all its probes in the cell. With fewer
+    /// than 6 clusters many points then see none, and go by the distance moments.
     bool strict = false;
     int sweeps = 800;         ///< of simulated annealing over all probes, 0..100000; 0: the colouring is its start,
                               ///< improved greedily
@@ -53,7 +53,7 @@ struct MaskReport {
     double startLoss = 0, loss = 0;  ///< eqs. 7 and 8 of the convex division, and of the colouring
     double residual = 0;             ///< eq. 5, as a share of the leaking baseline's; 0 where that has none
     double meanClusters = 0;         ///< clusters that a texel sees, of those in its cell
-    double blindTexels = 0;          ///< share of the texels that see no cluster: walls, and what lies beside thin ones
+    double blindTexels = 0;          ///< share of texels that see no cluster: in matter, on walls, or shut in
 };
 
 /// Which clusters of probes each place of a field's volumes sees: baked visibility (Zhou et al., "Fast Probe-Leaking
