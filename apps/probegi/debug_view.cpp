@@ -12,6 +12,7 @@
 
 #include "camera_rays.h"
 #include "probe_balls.h"
+#include "probegi/masks.h"
 #include "probegi/measure.h"
 #include "probegi/tracer.h"
 
@@ -41,14 +42,20 @@ glm::vec3 paintAt(const Field& field, const ShownPoint& point) {
     return glm::clamp(e * std::numbers::inv_pi_v<float>, 0.0f, 1.0f);
 }
 
-// Lets each probe shine in a colour of its own, in all directions. Returns what the probes stored.
-Result<FieldSnapshot> paintProbes(Field& field) {
+// Lets each probe, or each cluster of probes, shine in a colour of its own, in all directions. Returns what the probes
+// stored.
+Result<FieldSnapshot> paintProbes(Field& field, Paint paint) {
+    const std::shared_ptr<const Masks> masks = field.control().settings().masks;
+    if (paint == Paint::clusters && !masks)
+        return fail(ErrorCode::invalidArgument, "--debug clusters shows masks; add --leak-guard masks");
     const auto stored = field.read();
     if (!stored) return stored.error();
     FieldSnapshot painted = *stored;
     const std::size_t texels = painted.irradiance.size() / (3 * std::size_t(painted.slots.count));
     for (std::size_t i = 0; i < painted.irradiance.size(); ++i) {
-        const float channel = colourOf(i / (3 * texels))[int(i % 3)];
+        const std::size_t slot = i / (3 * texels);
+        const float channel =
+            colourOf(paint == Paint::clusters ? std::size_t(masks->cluster(int(slot))) : slot)[int(i % 3)];
         painted.irradiance[i] = glm::packHalf1x16(std::pow(channel, 0.2f));  // (E / pi)^(1/5)
     }
     if (auto written = field.write(painted); !written) return written.error();
@@ -189,7 +196,11 @@ std::span<const DebugView> debugViews() {
          "each probe in a colour of its own; a surface has those of the probes that light it, by their weights: an "
          "edge "
          "is where a probe stops being seen",
-         true, paintAt, nullptr, false, true},
+         true, paintAt, nullptr, false, Paint::probes},
+        {"clusters",
+         "each cluster of probes in a colour; a surface has those of the clusters that light it; with --leak-guard "
+         "masks",
+         true, paintAt, nullptr, false, Paint::clusters},
         {"states",
          "the probes: green those that surfaces use (vigilant), orange awake for what moves, yellow newly so, blue "
          "asleep, red off; see --probe-states",
@@ -216,8 +227,8 @@ const DebugView* findDebugView(const std::string& name) {
 
 Result<HdrImage> drawDebugView(const DebugView& view, Field& field, const Tracer& tracer, const Tracer* primitives,
                                const PlacedCamera& camera, int width, int height) try {
-    if (!view.paints) return draw(view, field, tracer, primitives, camera, width, height);
-    const auto stored = paintProbes(field);
+    if (view.paint == Paint::none) return draw(view, field, tracer, primitives, camera, width, height);
+    const auto stored = paintProbes(field, view.paint);
     if (!stored) return stored.error();
     auto image = draw(view, field, tracer, primitives, camera, width, height);
     if (auto written = field.write(*stored); !written) return written.error();

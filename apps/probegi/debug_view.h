@@ -23,6 +23,9 @@ struct ShownPoint {
     glm::vec3 normal, toViewer;
 };
 
+/// In what colours probes shine while a view is drawn, instead of in the light that they know.
+enum class Paint { none, probes, clusters };
+
 /// A picture of what a field does at the surfaces that a camera sees, or of its probes as balls: --debug NAME. A new
 /// one is a row of debugViews(). Colours are display values, 0..1.
 struct DebugView {
@@ -32,7 +35,7 @@ struct DebugView {
     glm::vec3 (*colour)(const Field&, const ShownPoint&);  ///< of a surface; null: grey
     glm::vec3 (*ball)(const ShownProbe&);                  ///< of a probe; null: probes are not shown
     bool primitives = false;  ///< colours those of --sdf that the camera sees; the surface where there is none is grey
-    bool paints = false;      ///< meanwhile each probe shines in a colour of its own instead of the light that it knows
+    Paint paint = Paint::none;
 };
 
 std::span<const DebugView> debugViews();
@@ -41,8 +44,8 @@ std::span<const DebugView> debugViews();
 const DebugView* findDebugView(const std::string& name);
 
 /// Draws a view, with some shading so that shapes can be told; linear values, of which a PNG shows `colour`. Sky is
-/// black. The field is afterwards as it was. `primitives`: a tracer of --sdf; null: none. Errors: outOfMemory, and
-/// those of the tracers and of Field::write.
+/// black. The field is afterwards as it was. `primitives`: a tracer of --sdf; null: none. Errors: invalidArgument
+/// (clusters without masks), outOfMemory, and those of the tracers and of Field::write.
 Result<HdrImage> drawDebugView(const DebugView& view, Field& field, const Tracer& tracer, const Tracer* primitives,
                                const PlacedCamera& camera, int width, int height);
 

@@ -31,6 +31,7 @@ Example: probegi render builtin:cornell -o darker.png --exposure 0.8
 Example: probegi render sponza.glb -o sponza.exr --camera nave --sky 0.3,0.4,0.6 --size 1920x1080 --stats stats.json
 Example: probegi render builtin:house -o house.png --backend vulkan
 Example: probegi render builtin:mirrors -o mirrors.png --glossy field
+Example: probegi render builtin:dark-room -o dark.png --camera dark --leak-guard masks --stats masks.json
 Example: probegi render sponza.glb -o near.png --camera nave --sky 0.3,0.4,0.6 --cascades 4
 Example: probegi render sponza.glb -o seams.png --camera nave --sky 0.3,0.4,0.6 --cascades 4 --debug volumes
 Example: probegi render builtin:house -o house.png --sdf house.sdf.json
@@ -50,12 +51,16 @@ struct Tracers {
     const Tracer& probes() const { return primitives ? *primitives : pictures; }
 };
 
-Result<std::optional<Field>> makeField(const Backend& backend, const Tracers& tracers, const LoadedSetup& setup,
-                                       const RenderOptions& options, RenderStats& stats) {
+Result<std::optional<Field>> makeField(const Context& context, const Backend& backend, const Tracers& tracers,
+                                       const LoadedSetup& setup, const RenderOptions& options, RenderStats& stats) {
     auto field = makeEmptyField(backend, setup, options);
     if (!field || !*field) return field;
     stats.probes = probeCount((*field)->desc());
     stats.raysPerProbe = (*field)->desc().raysPerProbe;
+    if (options.masks.bakes()) {
+        if (auto baked = bakeMasksFor(**field, context, tracers.pictures, setup, options.masks); !baked) return baked.error();
+        stats.masks = (*field)->control().settings().masks->report();
+    }
     if (!options.debug.empty() && !findDebugView(options.debug)->needsLight) return field;
     auto run = runField(**field, tracers.probes(), setup.lighting, options.run);
     if (!run) return run.error();
@@ -65,9 +70,9 @@ Result<std::optional<Field>> makeField(const Backend& backend, const Tracers& tr
     return field;
 }
 
-Result<Picture> drawWithField(const Context&, const Backend& backend, const Tracers& tracers, const LoadedSetup& setup,
-                              const RenderOptions& options, RenderStats& stats) {
-    const auto field = makeField(backend, tracers, setup, options, stats);
+Result<Picture> drawWithField(const Context& context, const Backend& backend, const Tracers& tracers,
+                              const LoadedSetup& setup, const RenderOptions& options, RenderStats& stats) {
+    const auto field = makeField(context, backend, tracers, setup, options, stats);
     if (!field) return field.error();
     const auto renderer = backend.makeRenderer();
     if (!renderer) return renderer.error();
@@ -81,7 +86,7 @@ Result<Picture> drawWithField(const Context&, const Backend& backend, const Trac
 
 Result<Picture> drawReference(const Context& context, const Backend& backend, const Tracers& tracers,
                               const LoadedSetup& setup, const RenderOptions& options, RenderStats& stats) {
-    const auto field = makeField(backend, tracers, setup, options, stats);
+    const auto field = makeField(context, backend, tracers, setup, options, stats);
     if (!field) return field.error();
     auto rendered = renderReference(context, tracers.pictures, setup, options, *field ? &**field : nullptr);
     if (!rendered) return rendered.error();
@@ -89,9 +94,9 @@ Result<Picture> drawReference(const Context& context, const Backend& backend, co
     return std::move(rendered->picture);
 }
 
-Result<void> renderDebugView(const Backend& backend, const Tracers& tracers, const LoadedSetup& setup,
-                             const RenderOptions& options, RenderStats& stats) {
-    auto field = makeField(backend, tracers, setup, options, stats);
+Result<void> renderDebugView(const Context& context, const Backend& backend, const Tracers& tracers,
+                             const LoadedSetup& setup, const RenderOptions& options, RenderStats& stats) {
+    auto field = makeField(context, backend, tracers, setup, options, stats);
     if (!field) return field.error();
     const PictureSize size = *parseSize(options.size);
     const auto image = drawDebugView(*findDebugView(options.debug), **field, tracers.pictures, tracers.primitives,
@@ -121,6 +126,13 @@ void warnAboutUnusedOptions(const RenderOptions& options) {
 
 void checkOptions(const CLI::App& command, const RenderOptions& options) {
     checkBackendOptions(command, options.backend);
+    checkMaskOptions(options.masks);
+    if (options.masks.bakes() && options.method != Method::ddgi)
+        throw CLI::ValidationError("--leak-guard", "masks are looked up with --method ddgi only");
+    if (options.masks.bakes() && !options.animate.empty())
+        throw CLI::ValidationError("--leak-guard", "masks are baked for a scene that stands still, without --animate");
+    if (options.masks.bakes() && options.scene.volumes.cascades > 0)
+        throw CLI::ValidationError("--leak-guard", "masks are baked for probes that stand still, without --cascades");
     const bool glossy = options.glossy != Glossy::off && options.method != Method::reference && !options.diffuseOnly;
     if (options.aov == Aov::glossy && !glossy)
         throw CLI::ValidationError("--aov",
@@ -164,7 +176,7 @@ Result<void> render(const RenderOptions& options) {
     RenderStats stats;
     stats.sdf = setup->sdf;
     if (!options.debug.empty()) {
-        if (auto drawn = renderDebugView(**backend, tracers, *setup, options, stats); !drawn) return drawn;
+        if (auto drawn = renderDebugView(*context, **backend, tracers, *setup, options, stats); !drawn) return drawn;
         return options.stats.empty() ? Result<void>() : writeText(options.stats, statsJson(stats));
     }
     const auto draw = options.method == Method::reference ? drawReference : drawWithField;
@@ -290,6 +302,7 @@ void addMethodOptions(CLI::App& command, RenderOptions& options) {
         ->type_name("on|off")
         ->transform(oneOf(kOnOff));
     addSdfOption(command, options.scene);
+    addMaskOptions(command, options.masks);
     addFieldRunOptions(command, options.run);
     command
         .add_option(

@@ -8,6 +8,7 @@
 #include "aov.h"
 #include "backend.h"
 #include "field_run.h"
+#include "mask_options.h"
 #include "probegi/reference.h"
 #include "scene_setup.h"
 
@@ -41,6 +42,7 @@ struct RenderOptions {
     std::optional<double> seconds;
     bool guide = false;
     bool relocation = false, probeStates = false;
+    MaskOptions masks;
     std::string debug;    ///< name of a DebugView; empty: a picture
     std::string animate;  ///< empty: one picture
     std::optional<int> updatesPerFrame;

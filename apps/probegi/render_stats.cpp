@@ -9,6 +9,29 @@
 
 namespace probegi::tool {
 
+namespace {
+
+nlohmann::ordered_json masksJson(const MaskReport& report) {
+    return {{"seconds",
+             {{"visibility", report.visibilitySeconds},
+              {"clusters", report.clusterSeconds},
+              {"masks", report.maskSeconds},
+              {"compression", report.compressSeconds}}},
+            {"rays", report.rays},
+            {"cells", report.cells},
+            {"blockedCells", report.blocked},
+            {"cubes", report.cubes},
+            {"denseBytes", report.denseBytes},
+            {"bytes", report.bytes},
+            {"startLoss", report.startLoss},
+            {"loss", report.loss},
+            {"residual", report.residual},
+            {"meanClusters", report.meanClusters},
+            {"blindTexels", report.blindTexels}};
+}
+
+}  // namespace
+
 double median(std::vector<double> values) {
     if (values.empty()) return 0;
     const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
@@ -42,6 +65,7 @@ std::string statsJson(const RenderStats& stats) {
         {"remaining", remaining},
         {"updateMs", {{"trace", ms.trace}, {"shade", ms.shade}, {"blend", ms.blend}, {"total", ms.total}}},
         {"pictureMs", stats.pictureMs}};
+    if (stats.masks) json["masks"] = masksJson(*stats.masks);
     if (stats.glossyMs) json["glossyMs"] = *stats.glossyMs;
     if (stats.sdf) {
         json["primitives"] = stats.sdf->primitives.size();

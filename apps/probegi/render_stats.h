@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "field_run.h"
+#include "probegi/masks.h"
 #include "probegi/sdf.h"
 
 namespace probegi::tool {
@@ -16,15 +17,16 @@ struct RenderStats {
     int raysPerProbe = 0;
     FieldRun run;
     double pictureMs = 0;
-    std::optional<double> glossyMs;  ///< of that; only with --glossy
-    std::optional<SdfScene> sdf;     ///< of --sdf
+    std::optional<MaskReport> masks;  ///< only with --leak-guard masks
+    std::optional<double> glossyMs;   ///< of that; only with --glossy
+    std::optional<SdfScene> sdf;      ///< of --sdf
 };
 
 /// JSON with the keys probes, activeProbes, raysPerProbe, frames, updatedProbes (mean per update of --frames, else 0),
 /// converged (null with --frames and without a field),
 /// remaining (the estimate behind it, null if there is none), updateMs {trace, shade, blend, total} (medians per
-/// update, 0 without updates), pictureMs, with --glossy glossyMs, with --sdf primitives and primitiveBytes,
-/// peakMemoryBytes.
+/// update, 0 without updates), pictureMs, with --leak-guard masks the members of MaskReport as
+/// masks {...}, with --glossy glossyMs, with --sdf primitives and primitiveBytes, peakMemoryBytes.
 std::string statsJson(const RenderStats& stats);
 
 /// 0 if there are no values.

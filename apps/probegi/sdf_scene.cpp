@@ -41,7 +41,7 @@ Result<void> readSdf(LoadedSetup& setup, const SceneOptions& options) {
     if (!sdf) return sdf.error();
     if (sdf->primitives.empty())
         printWarning(fmt::format("{} has no primitives: the rays of probes meet only the sky", options.sdf));
-    setup.sdf = std::shift(*sdf);
+    setup.sdf = std::move(*sdf);
     setup.files.emplace_back(options.sdf);
     return {};
 }

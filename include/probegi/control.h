@@ -16,10 +16,13 @@
 
 namespace probegi {
 
+class Masks;
+
 /// The second axis of the pipeline: which of the eight surrounding probes a point may use.
 enum class LeakGuard : std::uint8_t {
     none,     ///< trilinear and backface weights only: the leaking baseline
     moments,  ///< DDGI: Chebyshev test on distance moments (section 2.2 and 4.1)
+    masks,    ///< visibility baked for the place itself (FieldSettings::masks), and moments where that sees no probe
 };
 
 /// What an update ray that hits the back of a single-sided surface does to irradiance (section 4.1).
@@ -99,6 +102,8 @@ struct FieldSettings {
     float newDistribution = 0.8f;        ///< Listing 3, 0..1, same scale; 0 disables; both with FieldRules::paper only
     BackfaceRule backfaceRule = BackfaceRule::zeroSample;
     LeakGuard guard = LeakGuard::moments;
+    /// For LeakGuard::masks, which needs them: bakeMasks() of these volumes. Such volumes cannot scroll.
+    std::shared_ptr<const Masks> masks{};
     /// Where the viewer stands, metres, in the world: volumes with VolumeDesc::tracksCamera answer around it. Empty:
     /// they answer as others do. Field::followCamera sets it.
     std::optional<glm::vec3> camera{};

@@ -8,6 +8,7 @@
 #include "probegi/field.h"
 #include "probegi/image.h"
 #include "probegi/io.h"
+#include "probegi/masks.h"
 #include "probegi/measure.h"
 #include "probegi/reference.h"
 #include "probegi/render.h"

@@ -208,6 +208,9 @@ PROBEGI_API ScenePose poseAt(const Scene& scene, float seconds = 0.0f);
 /// World bounds of each instance that the scene's animations move, for FieldControl::setMoving.
 PROBEGI_API std::vector<Bounds> movingBounds(const Scene& scene, const ScenePose& pose);
 
+/// World bounds of each triangle of the pose, for MaskDesc::occluders.
+PROBEGI_API std::vector<Bounds> triangleBounds(const Scene& scene, const ScenePose& pose);
+
 /// Triangles over all instances of the pose.
 PROBEGI_API std::size_t triangleCount(const Scene& scene, const ScenePose& pose);
 

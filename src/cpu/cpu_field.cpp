@@ -10,6 +10,7 @@
 #include "field/snapshot.h"
 #include "kernels/probe/irradiance_decoding.h"
 #include "kernels/probe/storage.h"
+#include "probegi/masks.h"
 
 namespace probegi {
 
@@ -29,6 +30,7 @@ double millisecondsSince(Clock::time_point start) {
 Result<Field> Field::create(const Context& context, const FieldDesc& desc, const FieldSettings& settings) {
     if (auto ok = validateFieldDesc(desc); !ok) return ok.error();
     if (auto ok = validateFieldSettings(settings); !ok) return ok.error();
+    if (auto ok = validateMasks(desc, settings); !ok) return ok.error();
     const FieldLayout layout(desc);
     if (layout.probes * layout.visibilityTexels > kMostVisibilityTexels) return probesDoNotFit(desc);
     try {
@@ -61,6 +63,9 @@ FieldView CpuField::view(const FieldSettings& settings) const noexcept {
             .visibility = m_storage.visibility.data(),
             .backfaceShare = m_storage.backfaceShare.data(),
             .placements = m_storage.placements.data(),
+            .maskWords = settings.masks ? settings.masks->words().data() : nullptr,
+            .maskTexels = settings.masks ? settings.masks->factor() : 2,
+            .maskPacked = settings.masks && settings.masks->packed(),
             .fallbacks = &m_fallbacks,
             .irradianceTaps = &m_irradianceTaps,
             .visibilityTaps = &m_visibilityTaps};

@@ -14,16 +14,20 @@ public:
     int rules;
     int guard;
     float selfShadowBias;
+    int maskTexels, maskPacked;
 
     explicit FieldAccess(const FieldView& view)
         : rules(view.rules == FieldRules::paper ? kernels::kRulesPaper : kernels::kRulesMeasured),
           guard(guardNumber(view.guard)),
           selfShadowBias(view.selfShadowBias),
+          maskTexels(view.maskTexels),
+          maskPacked(view.maskPacked ? 1 : 0),
           m_view(view) {}
 
     friend float storedBackfaceShare(const FieldAccess& a, int slot) { return a.m_view.backfaceShare[slot]; }
     friend int storedPlacement(const FieldAccess& a, int slot) { return int(a.m_view.placements[slot]); }
     friend float givenVisibility(const FieldAccess&, int) { return 1.0f; }
+    friend int maskWord(const FieldAccess& a, int number) { return int(a.m_view.maskWords[number]); }
     friend void countFallback(const FieldAccess& a) {
         if (a.m_view.fallbacks) a.m_view.fallbacks->fetch_add(1, std::memory_order_relaxed);
     }

@@ -31,7 +31,10 @@ struct FieldView {
     const std::uint16_t* irradiance = nullptr;
     const std::uint32_t* visibility = nullptr;
     const float* backfaceShare = nullptr;
-    const std::uint32_t* placements = nullptr;        ///< kernels/volume/probe_offset.h
+    const std::uint32_t* placements = nullptr;  ///< kernels/volume/probe_offset.h
+    const std::uint32_t* maskWords = nullptr;   ///< with LeakGuard::masks: kernels/guards/masks.h
+    int maskTexels = 2;                         ///< along a cell's edge
+    bool maskPacked = false;
     std::atomic<std::uint64_t>* fallbacks = nullptr;  ///< counts the queries whose cage had too little weight
     const TapTable* irradianceTaps = nullptr;
     const TapTable* visibilityTaps = nullptr;

@@ -29,9 +29,13 @@ public:
     static constexpr int rules = kRules;
     static constexpr int guard = kGuard;
     float selfShadowBias;
+    int maskTexels, maskPacked;
 
     explicit LaneAccess(const FieldView& view)
         : selfShadowBias(view.selfShadowBias),
+          maskTexels(view.maskTexels),
+          maskPacked(view.maskPacked ? 1 : 0),
+          m_masks(reinterpret_cast<const std::int32_t*>(view.maskWords)),
           m_backfaceShare(view.backfaceShare),
           m_placements(reinterpret_cast<const std::int32_t*>(view.placements)),
           m_size(view.visibilityTexels),
@@ -51,6 +55,10 @@ public:
         return kernels::HWY_NAMESPACE::gather(a.m_placements, slot);
     }
     HWY_INLINE friend Real givenVisibility(const LaneAccess&, int) { return 1.0f; }
+
+    HWY_INLINE friend Int maskWord(const LaneAccess& a, const Int& number) {
+        return kernels::HWY_NAMESPACE::gather(a.m_masks, number);
+    }
 
     HWY_INLINE friend MapPoint visibilityPoint(const LaneAccess& a, const Real3& direction) {
         return footprintOf(a.m_taps, a.m_size, direction);
@@ -112,6 +120,7 @@ private:
         return (top + fy * (bottom - top)) * (1.0f / 65535.0f);
     }
 
+    const std::int32_t* m_masks;
     const float* m_backfaceShare;
     const std::int32_t* m_placements;
     int m_size;  // texels a side

@@ -144,6 +144,10 @@ HWY_INLINE Real toReal(const Int& x) {
 HWY_INLINE Int signedByte(const Int& word, int byte) {
     return Int(hn::ShiftRight<24>(hn::ShiftLeftSame(word.lanes, 24 - 8 * byte)));
 }
+HWY_INLINE Int shiftedRight(const Int& word, const Int& bits) {
+    constexpr hn::RebindToUnsigned<decltype(kInts)> kBits;
+    return Int(hn::BitCast(kInts, hn::Shr(hn::BitCast(kBits, word.lanes), hn::BitCast(kBits, bits.lanes))));
+}
 /// Of 32 unsigned bits.
 HWY_INLINE Int lowHalf(const Int& bits) {
     return bits & Int(0xffff);

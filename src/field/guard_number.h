@@ -12,10 +12,11 @@ constexpr int guardNumber(LeakGuard guard) {
     return int(guard);
 }
 
-#define GUARD(number, seen, between, farther) std::string_view(#seen),
+#define GUARD(number, point, seen, between, farther) std::string_view(#seen),
 inline constexpr std::string_view kGuardRows[] = {PROBEGI_GUARDS(GUARD)};
 #undef GUARD
 static_assert(kGuardRows[guardNumber(LeakGuard::none)] == "noneSeen");
 static_assert(kGuardRows[guardNumber(LeakGuard::moments)] == "momentsSeen");
+static_assert(kGuardRows[guardNumber(LeakGuard::masks)] == "masksSeen");
 
 }  // namespace probegi

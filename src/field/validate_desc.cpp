@@ -7,6 +7,7 @@
 #include "field/layout.h"
 #include "kernels/abi/field_constants.h"
 #include "kernels/trace/ray_offset.h"
+#include "probegi/masks.h"
 
 namespace probegi {
 
@@ -99,6 +100,18 @@ Result<void> validateFieldSettings(const FieldSettings& s) {
         .and_then([&] { return checkRange("significantChange", s.significantChange, 0, 1); })
         .and_then([&] { return checkRange("newDistribution", s.newDistribution, 0, 1); })
         .and_then([&] { return checkOutside(s); });
+}
+
+Result<void> validateMasks(const FieldDesc& desc, const FieldSettings& s, std::span<const glm::ivec3> scrolled) {
+    if (s.guard != LeakGuard::masks) return {};
+    if (!s.masks)
+        return fail(ErrorCode::invalidArgument, "LeakGuard::masks needs FieldSettings::masks; bake them first");
+    if (s.masks->volumes() != desc.volumes)
+        return fail(ErrorCode::invalidArgument,
+                    "the masks were baked for other volumes than the field's; bake them again");
+    if (std::any_of(scrolled.begin(), scrolled.end(), [](glm::ivec3 cells) { return cells != glm::ivec3(0); }))
+        return fail(ErrorCode::invalidArgument, "volumes with masks cannot scroll; choose another leak guard first");
+    return {};
 }
 
 }  // namespace probegi

@@ -44,6 +44,11 @@ KERNEL_FN float toReal(int x) {
     return float(x);
 }
 
+// A word without a sign, 0 <= bits < 32.
+KERNEL_FN int shiftedRight(int word, int bits) {
+    return int(uint(word) >> uint(bits));
+}
+
 // One of a word's four bytes, 0 the lowest, as a number with a sign.
 KERNEL_FN int signedByte(int word, int byte) {
     return int(uint(word) << uint(24 - 8 * byte)) >> 24;

@@ -141,6 +141,23 @@ std::vector<Bounds> movingBounds(const Scene& scene, const ScenePose& pose) {
     return bounds;
 }
 
+std::vector<Bounds> triangleBounds(const Scene& scene, const ScenePose& pose) {
+    std::vector<Bounds> bounds;
+    bounds.reserve(triangleCount(scene, pose));
+    for (const Instance& instance : pose.instances) {
+        for (const Primitive& p : scene.meshes[std::size_t(instance.mesh)].primitives) {
+            const auto corner = [&](std::size_t i) {
+                return glm::vec3(instance.toWorld * glm::vec4(p.positions[p.indices[i]], 1.0f));
+            };
+            for (std::size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+                const glm::vec3 a = corner(i), b = corner(i + 1), c = corner(i + 2);
+                bounds.push_back({glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))});
+            }
+        }
+    }
+    return bounds;
+}
+
 std::size_t triangleCount(const Scene& scene, const ScenePose& pose) {
     std::size_t count = 0;
     for (const Instance& instance : pose.instances) {

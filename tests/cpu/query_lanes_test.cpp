@@ -52,6 +52,7 @@ public:
                                                                                    << 16);
             }
         }
+        makeMasks();
     }
 
     FieldView view() {
@@ -66,6 +67,8 @@ public:
         view.irradiance = m_irradiance.data();
         view.visibility = m_visibility.data();
         view.backfaceShare = m_backfaceShare.data();
+        view.maskWords = m_masks.data();
+        view.maskTexels = kMaskTexels;
         view.irradianceTaps = &m_irradianceTaps;
         view.visibilityTaps = &m_visibilityTaps;
         return view;
@@ -97,12 +100,27 @@ public:
 
 private:
     static constexpr int kSlots = 3 * 5 * 6 * 4;  // for up to three volumes
+    static constexpr int kMaskTexels = 3, kCubeWords = 27, kCubes = 9;
+
+    // Eight clusters; a third of the cubes sees all, another nothing, the others what chance has it.
+    void makeMasks() {
+        std::mt19937 random(11);
+        for (int slot = 0; slot < kSlots; ++slot) {
+            m_masks.push_back(std::uint32_t(2 * kSlots + kCubeWords * (slot % kCubes)));
+            m_masks.push_back(std::uint32_t(random()) & 0x3f07u);
+        }
+        for (int cube = 0; cube < kCubes; ++cube)
+            for (int word = 0; word < kCubeWords; ++word)
+                m_masks.push_back(cube % 3 == 0 ? ~0u : cube % 3 == 1 ? 0u : std::uint32_t(random()));
+    }
+
     std::mt19937 m_random{7};
     test::FieldSetup m_desc;
     std::vector<kernels::Volume> m_volumes;
     std::vector<std::uint16_t> m_irradiance;
     std::vector<std::uint32_t> m_visibility;
     std::vector<float> m_backfaceShare;
+    std::vector<std::uint32_t> m_masks;
     TapTable m_irradianceTaps = makeTapTable(8), m_visibilityTaps;
 
 public:
@@ -131,7 +149,7 @@ void expectScalarAnswers(RandomField& field, const char* what) {
 
 TEST(QueryLanes, answerAsOnePointAtATime) {
     for (const FieldRules rules : {FieldRules::measured, FieldRules::paper})
-        for (const LeakGuard guard : {LeakGuard::moments, LeakGuard::none})
+        for (const LeakGuard guard : {LeakGuard::moments, LeakGuard::none, LeakGuard::masks})
             for (const int texels : {16, 8}) {
                 RandomField field(guard, rules, texels);
                 expectScalarAnswers(field, rules == FieldRules::paper ? "the paper's rules" : "the measured rules");
@@ -148,7 +166,7 @@ TEST(QueryLanes, answersFromFartherAwayAsOneAtATime) {
 // A turned and scrolled volume that does not have the pool's first slots. With this rotation no point is so near a
 // layer of probes that its small weights depend on rounding.
 TEST(QueryLanes, answerInTurnedVolumesAsOneAtATime) {
-    for (const LeakGuard guard : {LeakGuard::moments, LeakGuard::none}) {
+    for (const LeakGuard guard : {LeakGuard::moments, LeakGuard::none, LeakGuard::masks}) {
         RandomField field(guard, FieldRules::measured, 16);
         kernels::Volume& volume = field.volumes()[0];
         volume.phase = {3, 5, 2};

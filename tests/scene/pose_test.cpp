@@ -66,12 +66,19 @@ TEST(Pose, BoundsEncloseTransformedTrianglesOnly) {
     expectNear(pose.bounds.lower, {-4, 0, 0});
     expectNear(pose.bounds.upper, {2, 3, 3});
     EXPECT_EQ(triangleCount(scene, pose), 2u);
+    // Each triangle for itself.
+    const std::vector<Bounds> each = triangleBounds(scene, pose);
+    ASSERT_EQ(each.size(), 2u);
+    expectNear(glm::min(each[0].lower, each[1].lower), {-4, 0, 0});
+    expectNear(glm::max(each[0].upper, each[1].upper), {2, 3, 3});
+    expectNear(each[0].lower, {1, 2, 3});
 }
 
 TEST(Pose, WithoutTrianglesTheBoundsAreEmpty) {
     const ScenePose pose = poseAt(Scene{});
     EXPECT_EQ(pose.bounds.size(), glm::vec3(0));
     EXPECT_EQ(triangleCount(Scene{}, pose), 0u);
+    EXPECT_TRUE(triangleBounds(Scene{}, pose).empty());
 }
 
 TEST(Pose, WhatIsScaledToNothingIsLeftOut) {

@@ -28,6 +28,7 @@ declare -A below=(
     [bvh]="scene core kernels"
     [sdf]="scene core kernels"
     [field]="geometry scene core kernels"
+    [mask]="field geometry scene core kernels"
     [cpu]="field sdf geometry scene core kernels"
     [vulkan]="bvh sdf field geometry scene core kernels"
     [reference]="field geometry scene core kernels"

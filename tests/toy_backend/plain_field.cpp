@@ -12,6 +12,7 @@
 #include "kernels/lookup/volume_blend.h"
 #include "kernels/probe/octahedral_texel.h"
 #include "kernels/probe/probe_texel.h"
+#include "probegi/masks.h"
 
 namespace probegi::test {
 
@@ -23,6 +24,8 @@ struct SnapshotAccess : VolumeAccess {
     int rules;
     int guard;
     float selfShadowBias;
+    int maskTexels, maskPacked;
+    std::span<const std::uint32_t> masks;
     const FieldSnapshot& probes;
     std::span<const kernels::Volume> volumes;
     std::atomic<std::uint64_t>& fallbacks;
@@ -48,6 +51,7 @@ struct SnapshotAccess : VolumeAccess {
         const glm::vec3 e = a.probes.probeIrradiance(slot, at) / kernels::kPi;
         return {kernels::encodeIrradiance(e.x), kernels::encodeIrradiance(e.y), kernels::encodeIrradiance(e.z)};
     }
+    friend int maskWord(const SnapshotAccess& a, int number) { return int(a.masks[std::size_t(number)]); }
     friend float givenVisibility(const SnapshotAccess&, int) { return 1.0f; }
     friend void countFallback(const SnapshotAccess& a) { ++a.fallbacks; }
 };
@@ -156,6 +160,9 @@ glm::vec3 PlainField::irradiance(const FieldSettings& settings, const FieldQuery
                                 kernels::kRulesPaper,
                                 guardNumber(settings.guard),
                                 settings.selfShadowBias,
+                                settings.masks ? settings.masks->factor() : 2,
+                                settings.masks && settings.masks->packed() ? 1 : 0,
+                                settings.masks ? settings.masks->words() : std::span<const std::uint32_t>(),
                                 m_probes,
                                 m_volumes,
                                 m_fallbacks};

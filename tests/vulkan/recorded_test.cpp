@@ -3,6 +3,7 @@
 #include <fstream>
 #include <random>
 
+#include "probegi/masks.h"
 #include "support/field_setup.h"
 #include "vulkan/engine.h"
 #include "vulkan/hooks.h"
@@ -436,6 +437,24 @@ TEST_F(VulkanRecorded, rayDataThatIsTooShortIsRefused) {
         EXPECT_TRUE(volume.recordUpdate(commands, rayBuffer.range(), fixedBuffer.range()));
     });
     EXPECT_EQ(volume.control().frame(), 1);
+}
+
+TEST_F(VulkanRecorded, masksAreRefused) {
+    const vulkan::Device device = adopt();
+    GpuField volume = *GpuField::create(device, world.desc, world.desc);
+    FieldSetup masked = world.desc;
+    masked.guard = LeakGuard::masks;
+    const auto tracer = makeEmbreeTracer(log, world.scene, world.pose).value();
+    masked.masks = bakeMasks(log, *tracer, masked, {.factor = 2}).value();
+    const auto made = GpuField::create(device, masked, masked);
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().code, ErrorCode::unsupported);
+    EXPECT_TRUE(volume.control().setSettings(masked));
+    engine.run([&](VkCommandBuffer commands) {
+        const auto recorded = volume.recordSettings(commands);
+        ASSERT_FALSE(recorded);
+        EXPECT_EQ(recorded.error().code, ErrorCode::unsupported);
+    });
 }
 
 TEST_F(VulkanRecorded, anUploadAfterItsStagingIsGoneIsRefused) {

@@ -38,7 +38,10 @@ struct FieldConstants {
     vec2 visibilityTexelSize;
     Volume volumes[kMostVolumes];
     VolumeBlending blending;
-    RaySet rays;  // of the coming update
+    RaySet rays;     // of the coming update
+    uvec2 masks;     // address of the words of kernels/guards/masks.h; 0: none
+    int maskTexels;  // along a cell's edge
+    int maskPacked;  // 1: two texels to a word
 };
 
 KERNELS_END

@@ -6,24 +6,33 @@
 
 KERNELS_BEGIN
 
-LOOKUP_FN Real guardSeen(IN(Access) access, IN(Volume) v, Int slot, Real3 fromProbe) {
-#define GUARD(number, seen, between, farther) \
-    if (access.guard == number) return seen(access, v, slot, fromProbe);
+LOOKUP_FN GuardPoint guardPoint(IN(Access) access, IN(Volume) v, IN(Cage) cage, Int slot) {
+#define GUARD(number, point, seen, between, farther) \
+    if (access.guard == number) return point(access, v, cage, slot);
+    PROBEGI_GUARDS(GUARD)
+#undef GUARD
+    return noGuardPoint();
+}
+
+LOOKUP_FN Real guardSeen(IN(Access) access, IN(Volume) v, Int slot, Real3 fromProbe, IN(GuardPoint) of) {
+#define GUARD(number, point, seen, between, farther) \
+    if (access.guard == number) return seen(access, v, slot, fromProbe, of);
     PROBEGI_GUARDS(GUARD)
 #undef GUARD
     return Real(1.0f);
 }
 
-LOOKUP_FN Real guardBetween(IN(Access) access, IN(Volume) v, Int slot, OF_ACCESS(MapPoint) along, Real distance) {
-#define GUARD(number, seen, between, farther) \
-    if (access.guard == number) return between(access, v, slot, along, distance);
+LOOKUP_FN Real guardBetween(IN(Access) access, IN(Volume) v, Int slot, Int side, OF_ACCESS(MapPoint) along,
+                            Real distance) {
+#define GUARD(number, point, seen, between, farther) \
+    if (access.guard == number) return between(access, v, slot, side, along, distance);
     PROBEGI_GUARDS(GUARD)
 #undef GUARD
     return Real(1.0f);
 }
 
 LOOKUP_FN Real guardFar(IN(Access) access, IN(Volume) v, Int slot, Real3 fromProbe) {
-#define GUARD(number, seen, between, farther) \
+#define GUARD(number, point, seen, between, farther) \
     if (access.guard == number) return farther(access, v, slot, fromProbe);
     PROBEGI_GUARDS(GUARD)
 #undef GUARD

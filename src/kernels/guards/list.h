@@ -1,10 +1,13 @@
-// The list of leak guards: which of the probes around a point it may use. A guard is a header of this folder with three
-// functions, each of which says 0..1 (Access is lookup/access.h's):
+// The list of leak guards: which of the probes around a point it may use. A guard is a header of this folder with four
+// functions (Access and GuardPoint are lookup/access.h's), of which three say 0..1:
 //
+//     // What the guard notes of a point, once, for the eight calls of the next. `slot`: of the cage's lowest probe
+//     GuardPoint NAMEPoint(Access access, Volume v, Cage cage, Int slot)
 //     // How far the point may use a probe of its cage. `fromProbe`: from the probe to the point with its bias, metres
-//     Real NAMESeen(Access access, Volume v, Int slot, Real3 fromProbe)
-//     // How far a probe sees the one that stands `distance` metres away along an axis of the volume. `along`:
-//     axisPoint() Real NAMEBetween(Access access, Volume v, Int slot, MapPoint along, Real distance)
+//     Real NAMESeen(Access access, Volume v, Int slot, Real3 fromProbe, GuardPoint point)
+//     // How far a probe sees the one that stands `distance` metres away along an axis of the volume, 2 axis + up being
+//     // `side`. `along`: axisPoint()
+//     Real NAMEBetween(Access access, Volume v, Int slot, Int side, MapPoint along, Real distance)
 //     // NAMESeen() for the neighbours of a cage with too little weight, of one point in plain C++ and GLSL
 //     Real NAMEFar(Access access, Volume v, Int slot, Real3 fromProbe)
 //
@@ -16,9 +19,13 @@
 #include "kernels/guards/moments.h"
 #include "kernels/guards/none.h"
 
-// Number, and the three functions, in the order of probegi::LeakGuard.
-#define PROBEGI_GUARDS(GUARD)                \
-    GUARD(0, noneSeen, noneBetween, noneFar) \
-    GUARD(1, momentsSeen, momentsBetween, momentsFar)
+// Asks the moments where it knows nothing.
+#include "kernels/guards/masks.h"
+
+// Number, and the four functions, in the order of probegi::LeakGuard.
+#define PROBEGI_GUARDS(GUARD)                                       \
+    GUARD(0, nonePoint, noneSeen, noneBetween, noneFar)             \
+    GUARD(1, momentsPoint, momentsSeen, momentsBetween, momentsFar) \
+    GUARD(2, masksPoint, masksSeen, masksBetween, masksFar)
 
 #endif

@@ -4,6 +4,7 @@
 #define PROBEGI_KERNELS_MOMENTS_H
 
 #include "kernels/lookup/access.h"
+#include "kernels/lookup/cage.h"
 #include "kernels/lookup/probe_neighbours.h"
 
 KERNELS_BEGIN
@@ -15,7 +16,11 @@ KERNEL_FN Real neighbourVisibility(Real mean, Real meanSquare, Real distance) {
                   Real(chebyshevFloor(kRulesMeasured)));
 }
 
-LOOKUP_FN Real momentsSeen(IN(Access) access, IN(Volume) v, Int slot, Real3 fromProbe) {
+LOOKUP_FN GuardPoint momentsPoint(IN(Access), IN(Volume), IN(Cage), Int) {
+    return noGuardPoint();
+}
+
+LOOKUP_FN Real momentsSeen(IN(Access) access, IN(Volume) v, Int slot, Real3 fromProbe, IN(GuardPoint)) {
     const OF_ACCESS(MapPoint) at = visibilityPoint(access, toWorldDirection(v, fromProbe));
     Real mean;
     Real meanSquare;
@@ -23,7 +28,8 @@ LOOKUP_FN Real momentsSeen(IN(Access) access, IN(Volume) v, Int slot, Real3 from
     return chebyshevWeight(mean, meanSquare, length(fromProbe) * v.inverseMaxDistance, access.rules);
 }
 
-LOOKUP_FN Real momentsBetween(IN(Access) access, IN(Volume) v, Int slot, OF_ACCESS(MapPoint) along, Real distance) {
+LOOKUP_FN Real momentsBetween(IN(Access) access, IN(Volume) v, Int slot, Int, OF_ACCESS(MapPoint) along,
+                              Real distance) {
     Real mean;
     Real meanSquare;
     momentsOnAxis(access, v, slot, along, mean, meanSquare);

@@ -3,14 +3,19 @@
 #define PROBEGI_KERNELS_NONE_H
 
 #include "kernels/lookup/access.h"
+#include "kernels/lookup/cage.h"
 
 KERNELS_BEGIN
 
-LOOKUP_FN Real noneSeen(IN(Access), IN(Volume), Int, Real3) {
+LOOKUP_FN GuardPoint nonePoint(IN(Access), IN(Volume), IN(Cage), Int) {
+    return noGuardPoint();
+}
+
+LOOKUP_FN Real noneSeen(IN(Access), IN(Volume), Int, Real3, IN(GuardPoint)) {
     return Real(1.0f);
 }
 
-LOOKUP_FN Real noneBetween(IN(Access), IN(Volume), Int, OF_ACCESS(MapPoint), Real) {
+LOOKUP_FN Real noneBetween(IN(Access), IN(Volume), Int, Int, OF_ACCESS(MapPoint), Real) {
     return Real(1.0f);
 }
 

@@ -22,6 +22,11 @@
 //     // Visibility of a corner of the cage that another pass found, say in screen space: it multiplies what the guard
 //     // says of the probe. 1 where there is none.
 //     Real givenVisibility(Access access, int corner)
+//
+//     // With the guard of masks (guards/masks.h has the layout):
+//     int maskTexels;                                        // members: along a cell's edge
+//     int maskPacked;                                        // whether two texels share a word
+//     Int maskWord(Access access, Int number)
 //     void countFallback(Access access)                      // called by a look-up whose cage has too little weight
 //
 // A look-up in several volumes asks a few more: volume_blend.h.
@@ -43,6 +48,21 @@
 #endif
 
 KERNELS_BEGIN
+
+// What a leak guard notes of a point before it is asked about the probes of its cage (guards/list.h).
+struct GuardPoint {
+    Int low;
+    Int high;
+    Real scale;
+};
+
+KERNEL_FN GuardPoint noGuardPoint() {
+    GuardPoint point;
+    point.low = Int(0);
+    point.high = Int(0);
+    point.scale = Real(0.0f);
+    return point;
+}
 
 // One component of a vector, of axis 0 to 2.
 KERNEL_FN Real component(Int axis, Real3 v) {

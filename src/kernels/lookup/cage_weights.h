@@ -36,6 +36,7 @@ KERNEL_FN Int frontCorner(Int axis, Int up, int k) {
 
 LOOKUP_FN void weighProbes(IN(Access) access, IN(Volume) v, IN(Cage) cage, IN(CageSlots) slots, INOUT(CageWeights) w) {
     const Real3 toBase = cage.base * v.spacing - (cage.position - v.origin);
+    const GuardPoint point = guardPoint(access, v, cage, cornerSlot(v, slots, 0));
     Real weightSum = Real(0.0f);
     Real ahead = Real(0.0f);
     for (int corner = 0; corner < 8; ++corner) {
@@ -47,7 +48,7 @@ LOOKUP_FN void weighProbes(IN(Access) access, IN(Volume) v, IN(Cage) cage, IN(Ca
         if (v.relocated != 0) toProbe = toProbe + probeOffset(v, storedPlacement(access, slot));
         const Real product = dot(toProbe, cage.normal);
         const Real facing = backfaceWeight(cosineToProbe(product, length(toProbe), v.minSpacing), access.rules);
-        const Real visible = guardSeen(access, v, slot, cage.bias - toProbe) * givenVisibility(access, corner);
+        const Real visible = guardSeen(access, v, slot, cage.bias - toProbe, point) * givenVisibility(access, corner);
         const Real trilinear = trilinearFactor(float(x), cage.alpha.x) * trilinearFactor(float(y), cage.alpha.y) *
                                trilinearFactor(float(z), cage.alpha.z);
         const Real weight =
@@ -115,7 +116,7 @@ LOOKUP_FN void weighPairs(IN(Access) access, IN(Volume) v, IN(Cage) cage, IN(Cag
             distance = spacing * cells;
         }
         const Real pair = frontWeight(w, alongX, alongZ, up, k) * alongAxis * outside *
-                          guardBetween(access, v, slot, along, distance);
+                          guardBetween(access, v, slot, w.axis + w.axis + w.up, along, distance);
         pairSum = pairSum + pair;
         w.front[k] = frontCorner(w.axis, w.up, k);
         w.pair[k] = pair;

@@ -58,6 +58,8 @@ RecordAccess::RecordAccess(const FieldRecord& record, const LeftOut& out)
     : rules(record.snapshot.desc.rules == FieldRules::paper ? kernels::kRulesPaper : kernels::kRulesMeasured),
       guard(guardNumber(record.settings.guard)),
       selfShadowBias(record.settings.selfShadowBias),
+      maskTexels(record.settings.masks ? record.settings.masks->factor() : 2),
+      maskPacked(record.settings.masks && record.settings.masks->packed() ? 1 : 0),
       m_record(&record),
       m_out(&out) {}
 

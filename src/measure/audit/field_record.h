@@ -6,6 +6,7 @@
 
 #include "kernels/lookup/irradiance.h"
 #include "probegi/field.h"
+#include "probegi/masks.h"
 
 namespace probegi {
 
@@ -40,6 +41,7 @@ public:
     int rules;
     int guard;
     float selfShadowBias;
+    int maskTexels, maskPacked;
 
     RecordAccess(const FieldRecord& record, const LeftOut& out);
     /// The same field with a light of 1 (before decoding) in some probes and none in the others: what it answers is
@@ -50,6 +52,9 @@ public:
     friend int storedPlacement(const RecordAccess& a, int slot) { return a.placement(slot); }
     friend float givenVisibility(const RecordAccess& a, int corner) { return a.m_out->seen[std::size_t(corner)]; }
     friend void countFallback(const RecordAccess&) {}
+    friend int maskWord(const RecordAccess& a, int number) {
+        return int(a.m_record->settings.masks->words()[std::size_t(number)]);
+    }
     friend glm::vec3 visibilityPoint(const RecordAccess&, glm::vec3 direction) { return direction; }
     friend glm::vec3 axisPoint(const RecordAccess&, const kernels::Volume& v, int axis, bool up) {
         return kernels::axisDirection(v, axis, up);

@@ -45,6 +45,7 @@ std::array<float, 8> seenFrom(const FieldRecord& record, const RecordAccess& acc
     std::array<float, 8> factors;
     factors.fill(1);
     const kernels::Volume& v = record.volumes[std::size_t(look.volume)];
+    const kernels::GuardPoint point = kernels::guardPoint(access, v, look.cage, look.weights.slot[0]);
     for (std::size_t corner = 0; corner < 8; ++corner) {
         if (!hidden.corner[corner]) continue;
         const int slot = look.weights.slot[corner];
@@ -54,8 +55,9 @@ std::array<float, 8> seenFrom(const FieldRecord& record, const RecordAccess& acc
         const glm::vec3 fromProbe = look.cage.bias - toProbe;
         const float distance = glm::length(fromProbe);
         if (!(distance > 0)) continue;
-        const float now = kernels::guardSeen(access, v, slot, fromProbe);
-        factors[corner] = kernels::guardSeen(access, v, slot, fromProbe * (1 + extra / distance)) / now;
+        const float now = kernels::guardSeen(access, v, slot, fromProbe, point);
+        if (!(now > 0)) continue;  // no distance makes masks see more
+        factors[corner] = kernels::guardSeen(access, v, slot, fromProbe * (1 + extra / distance), point) / now;
     }
     return factors;
 }

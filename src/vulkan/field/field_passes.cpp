@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "core/sentence.h"
-#include "field/guard_number.h"
 #include "field/probe_emitters.h"
 #include "field/volume_access.h"
 #include "kernels/lookup/probe_query.h"
@@ -100,38 +99,6 @@ FieldPasses::FieldPasses(const Device& device, const FieldDesc& desc)
     writeSet();
 }
 
-kernels::FieldConstants FieldPasses::constants(const FieldSettings& settings) const {
-    const auto texelSize = [](const Image& image) {
-        return glm::vec2(1.0f / float(image.size().width), 1.0f / float(image.size().height));
-    };
-    kernels::FieldConstants c{
-        .volumeCount = int(m_volumes.size()),
-        .guard = guardNumber(settings.guard),
-        .rules = m_desc.rules == FieldRules::paper ? kernels::kRulesPaper : kernels::kRulesMeasured,
-        .selfShadowBias = settings.selfShadowBias,
-        .irradianceTexels = m_desc.irradianceTexels,
-        .visibilityTexels = m_desc.visibilityTexels,
-        .tiles = m_tiles,
-        .irradianceTexelSize = texelSize(m_irradiance),
-        .visibilityTexelSize = texelSize(m_visibility),
-        .volumes = {},
-        .blending = blending(settings),
-        .rays = m_rays};
-    std::copy(m_volumes.begin(), m_volumes.end(), c.volumes);
-    return c;
-}
-
-kernels::VolumeBlending FieldPasses::blending(const FieldSettings& settings) const {
-    const VolumeOrder order = volumeOrder(m_desc, settings, m_byDensity);
-    kernels::VolumeBlending b{.camera = order.camera,
-                              .tracking = order.tracking,
-                              .outsideRadiance = order.outsideRadiance,
-                              .outsideFades = order.outsideFades ? 1 : 0,
-                              .order = {}};
-    std::copy(m_byDensity.begin(), m_byDensity.end(), b.order);
-    return b;
-}
-
 void FieldPasses::writeSet() {
     const Device::Impl& device = m_device.impl();
     const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eUniformBuffer, 1},
@@ -172,7 +139,7 @@ FieldMemory FieldPasses::memory() const noexcept {
     return {m_irradiance.bytes(), m_visibility.bytes(),
             m_states.bytes() + m_tasks.bytes() + m_sides.bytes() + m_filters.bytes() + m_constants.bytes() +
                 m_directions.bytes() + m_surfaces.bytes() + m_bounds.bytes() + m_chosen.bytes() + m_events.bytes() +
-                m_limits.bytes() + m_progress.bytes(),
+                m_limits.bytes() + m_progress.bytes() + m_masks.bytes(),
             m_irradianceWeights.bytes() + m_visibilityRays.bytes() + m_visibilityWeights.bytes() + m_hits.bytes() +
                 m_rayData.bytes() + m_fixedRays.bytes() + m_emitterLights.bytes() + m_steps.bytes() +
                 m_changes.bytes()};
@@ -228,7 +195,7 @@ void FieldPasses::recordClear(const Recorder& recorder, const FieldSettings& set
     m_recordedSettings = settings;
     m_recordedTasks.reset();
     m_rays = rays;
-    recorder.write(m_constants, bytesOf(constants(settings)));
+    recordConstants(recorder, settings);
     recorder.orderAll();
 }
 
@@ -334,14 +301,6 @@ void FieldPasses::recordPlacements(const Recorder& recorder, const FieldSettings
     recorder.dispatchOver("set_placements", m_layout.probes);
     recorder.orderAll();
     m_recordedTasks.reset();  // origins are elsewhere
-}
-
-void FieldPasses::recordSettings(const Recorder& recorder, const FieldSettings& settings) {
-    if (settings == m_recordedSettings) return;
-    m_recordedSettings = settings;
-    recorder.orderAll();
-    recorder.write(m_constants, bytesOf(constants(settings)));
-    recorder.orderAll();
 }
 
 // Writes the task list if it has changed, then the sizes of the dispatches over it.

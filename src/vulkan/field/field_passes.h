@@ -74,6 +74,7 @@ public:
     /// Call it if recorded commands will not run: the next pass writes constants and tasks again.
     void forgetRecorded() noexcept {
         m_recordedSettings.reset();
+        m_recordedMasks.reset();
         m_recordedTasks.reset();
         m_recordedChoice.reset();
         m_listed = false;
@@ -107,6 +108,8 @@ public:
 private:
     kernels::FieldConstants constants(const FieldSettings& settings) const;
     kernels::VolumeBlending blending(const FieldSettings& settings) const;
+    /// Writes the constants of the settings, and, if they are others than before, the masks. Throws before it records.
+    void recordConstants(const Recorder& recorder, const FieldSettings& settings);
     void writeSet();
     void makeRayBuffers(int looks);
     /// What an update with a budget needs besides.
@@ -142,6 +145,7 @@ private:
     Buffer m_steps, m_changes;              // passed between the passes of an update
     Buffer m_surfaces, m_bounds, m_chosen;  // of recorded updates with relocation or states: kernels::PlacesPush
     Buffer m_directions;                    // vec3 per ray: those of the update, then the fixed ones
+    Buffer m_masks;                         // Masks::words(); created by the first settings with LeakGuard::masks
     Buffer m_events;                        // EventRegion of the update
     Buffer m_limits;                        // EventLimit per probe; created by the first update that has any
     Buffer m_progress;                      // ProbeProgress per probe, for the host; the same
@@ -154,6 +158,7 @@ private:
     vk::raii::DescriptorSets m_sets{nullptr};
     // Contents of the buffers once all recorded commands have run.
     std::optional<FieldSettings> m_recordedSettings;
+    std::shared_ptr<const Masks> m_recordedMasks;
     std::optional<std::uint32_t> m_recordedTasks;   // UpdateFrame::taskList
     std::optional<std::uint32_t> m_recordedChoice;  // PlacesFrame::chosenList
     kernels::RaySet m_rays{};                       // of the update after the last recorded one

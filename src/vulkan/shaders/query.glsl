@@ -108,6 +108,8 @@ struct Access {
     int rules;
     int guard;
     float selfShadowBias;
+    int maskTexels;
+    int maskPacked;
 };
 #define MapPoint vec2
 
@@ -116,6 +118,8 @@ Access probegiAccess() {
     access.rules = probegiField.rules;
     access.guard = probegiField.guard;
     access.selfShadowBias = probegiField.selfShadowBias;
+    access.maskTexels = probegiField.maskTexels;
+    access.maskPacked = probegiField.maskPacked;
     return access;
 }
 vec2 visibilityPoint(Access access, vec3 direction) {
@@ -143,6 +147,13 @@ int storedPlacement(Access access, int slot) {
 }
 vec3 storedIrradiance(Access access, int slot, vec2 at) {
     return textureLod(probegiIrradianceAtlas, probegiIrradianceAt(slot, at), 0.0).rgb;
+}
+int maskWord(Access access, int number) {
+#ifdef PROBEGI_MASKS
+    return int(Uints(probegiField.masks).at[number]);
+#else
+    return 0;  // an engine's fields have no masks
+#endif
 }
 float givenVisibility(Access access, int corner) {
     return 1.0;

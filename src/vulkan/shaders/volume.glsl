@@ -7,6 +7,7 @@
 #define PROBEGI_SET 0
 #define PROBEGI_BINDING 0
 #define PROBEGI_COUNT_FALLBACKS
+#define PROBEGI_MASKS
 #include "query.glsl"
 
 layout(set = 0, binding = 4, rgba16f) uniform image2DArray irradianceImage;

@@ -13,5 +13,6 @@ void evaluate(INOUT(Lane) lane) {
         giveBits(lane, uint(signedByte(word, byte)));
         give(lane, toReal(signedByte(word, byte)), 0.0f);
     }
+    giveBits(lane, uint(shiftedRight(word, 5)));
     giveBits(lane, uint(toInt(floor(x * 8.0f)) + 8));
 }

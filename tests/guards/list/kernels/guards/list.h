@@ -6,9 +6,13 @@
 #include "kernels/guards/none.h"
 #include "kernels/guards/toy.h"
 
-#define PROBEGI_GUARDS(GUARD)                         \
-    GUARD(0, noneSeen, noneBetween, noneFar)          \
-    GUARD(1, momentsSeen, momentsBetween, momentsFar) \
-    GUARD(2, toySeen, toyBetween, toyFar)
+// Asks the moments where it knows nothing.
+#include "kernels/guards/masks.h"
+
+#define PROBEGI_GUARDS(GUARD)                                       \
+    GUARD(0, nonePoint, noneSeen, noneBetween, noneFar)             \
+    GUARD(1, momentsPoint, momentsSeen, momentsBetween, momentsFar) \
+    GUARD(2, masksPoint, masksSeen, masksBetween, masksFar)         \
+    GUARD(3, toyPoint, toySeen, toyBetween, toyFar)
 
 #endif

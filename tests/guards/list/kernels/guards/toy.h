@@ -3,6 +3,7 @@
 #define PROBEGI_KERNELS_TOY_H
 
 #include "kernels/lookup/access.h"
+#include "kernels/lookup/cage.h"
 
 KERNELS_BEGIN
 
@@ -10,12 +11,19 @@ KERNEL_FN Real evenSlot(Int slot) {
     return select((slot & Int(1)) == Int(0), Real(1.0f), Real(0.0f));
 }
 
-LOOKUP_FN Real toySeen(IN(Access), IN(Volume), Int slot, Real3) {
-    return evenSlot(slot);
+// Whatever the point, so that this shows that the note reaches the other function.
+LOOKUP_FN GuardPoint toyPoint(IN(Access), IN(Volume), IN(Cage), Int) {
+    GuardPoint point = noGuardPoint();
+    point.high = Int(1);
+    return point;
+}
+
+LOOKUP_FN Real toySeen(IN(Access), IN(Volume), Int slot, Real3, IN(GuardPoint) point) {
+    return evenSlot(slot + point.high + Int(1));
 }
 
 // Of two neighbours along x, one has an odd slot.
-LOOKUP_FN Real toyBetween(IN(Access), IN(Volume), Int, OF_ACCESS(MapPoint), Real) {
+LOOKUP_FN Real toyBetween(IN(Access), IN(Volume), Int, Int, OF_ACCESS(MapPoint), Real) {
     return Real(0.0f);
 }
 
