@@ -58,7 +58,8 @@ Result<std::optional<Field>> makeField(const Context& context, const Backend& ba
     stats.probes = probeCount((*field)->desc());
     stats.raysPerProbe = (*field)->desc().raysPerProbe;
     if (options.masks.bakes()) {
-        if (auto baked = bakeMasksFor(**field, context, tracers.pictures, setup, options.masks); !baked) return baked.error();
+        if (auto baked = bakeMasksFor(**field, context, tracers.pictures, setup, options.masks); !baked)
+            return baked.error();
         stats.masks = (*field)->control().settings().masks->report();
     }
     if (!options.debug.empty() && !findDebugView(options.debug)->needsLight) return field;
