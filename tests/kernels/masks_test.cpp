@@ -44,15 +44,10 @@ struct CubeField {
     }
     friend int maskWord(const CubeField& f, int number) { return int(f.words.at(std::size_t(number))); }
     friend vec3 visibilityPoint(const CubeField&, vec3 direction) { return direction; }
-    friend vec3 axisPoint(const CubeField&, const Volume& v, int axis, bool up) { return axisDirection(v, axis, up); }
     friend void storedMoments(const CubeField& f, int, vec3, float& mean, float& meanSquare) {
         ++f.asked;
         mean = meanSquare = 0.0f;
     }
-    friend void momentsOnAxis(const CubeField& f, const Volume&, int slot, vec3 at, float& mean, float& square) {
-        storedMoments(f, slot, at, mean, square);
-    }
-    friend int storedPlacement(const CubeField&, int) { return 0; }
 };
 
 Volume oneCell() {
