@@ -30,7 +30,7 @@ for scene in "${scenes[@]}"; do
         { gsub(/[ ",]/, "", $1); value[$1] = $2 + 0 }
         function percent(share) { return sprintf("%.2g %%", 100 * share) }
         END {
-            printf "| %s | %d | %.2g | %.2g | %s | %s | %s | %.1f |\n", name, value["primitives"],
+            printf "| %s | %d | %.3g | %.3g | %s | %s | %s | %.1f |\n", name, value["primitives"],
                 100 * value["toPrimitives"], 100 * value["toScene"], percent(value["leaking"]),
                 value["skyRays"] > 0 ? percent(value["blockedSky"]) : "no sky", percent(value["startInside"]),
                 value["seconds"]
