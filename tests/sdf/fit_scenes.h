@@ -78,7 +78,7 @@ inline SdfFitDesc quickFit(int primitives) {
     SdfFitDesc desc;
     desc.maxPrimitives = primitives;
     desc.rays = 24'000;
-    desc.rounds = 4;
+    desc.rounds = 2;
     return desc;
 }
 

@@ -40,7 +40,7 @@ TEST(FitSdf, findsTheWallsOfASealedRoomWhichStaysSealed) {
 /// More rays, for a window is a small part of all that they see.
 SdfFitDesc windowFit() {
     SdfFitDesc desc = quickFit(16);
-    desc.rays = 80'000;
+    desc.rays = 40'000;
     return desc;
 }
 
