@@ -3,20 +3,8 @@
 
 #include <vector>
 
-#include "kernels/sdf/union_hit.h"
+#include "kernels/sdf_access.h"
 #include "kernels/sdf_solids.h"
-
-namespace probegi::kernels {
-namespace {
-
-std::vector<SdfSolid> theSolids;
-
-SdfSolid sdfSolid(int number) {
-    return theSolids[std::size_t(number)];
-}
-
-}  // namespace
-}  // namespace probegi::kernels
 
 #include "kernels/sdf/exact_hit.h"
 

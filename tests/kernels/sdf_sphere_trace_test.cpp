@@ -3,26 +3,10 @@
 
 #include <vector>
 
-#include "kernels/sdf/cluster.h"
-#include "kernels/sdf/union_hit.h"
+#include "kernels/sdf_access.h"
 #include "kernels/sdf_solids.h"
 
-namespace probegi::kernels {
-namespace {
-
-std::vector<SdfSolid> theSolids;
-std::vector<SdfCluster> theClusters;
-
-SdfSolid sdfSolid(int number) {
-    return theSolids[std::size_t(number)];
-}
-SdfCluster sdfCluster(int number) {
-    return theClusters[std::size_t(number)];
-}
-
-}  // namespace
-}  // namespace probegi::kernels
-
+#include "kernels/sdf/cluster.h"
 #include "kernels/sdf/exact_hit.h"
 #include "kernels/sdf/sphere_trace.h"
 

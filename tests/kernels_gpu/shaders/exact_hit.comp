@@ -14,10 +14,10 @@ void evaluate(INOUT(Lane) lane) {
     const vec3 direction = normalize(vec3(takeIndex(lane, 2) == 0 ? 1.0f : -1.0f, slope, -slope));
     const float far = takeIndex(lane, 4) == 0 ? 1e30f : 0.1f * float(takeIndex(lane, 30)) + 0.06f;
     bool within = false;
-    const SdfFound found = sdfClosestHit(origin, 0.0f, direction, far, 3, within);
+    const SdfFound found = sdfClosestHit(origin, 0.0f, direction, far, kCubes, within);
     giveBits(lane, uint(found.solid));
     give(lane, found.solid < 0 ? 0.0f : found.distance, 1e-5f);
     giveBits(lane, within ? 1u : 0u);
-    giveBits(lane, sdfIsBlocked(origin, 0.0f, direction, far, 3) ? 1u : 0u);
-    give(lane, sdfWayOut(origin, 0.0f, direction, 3).distance, 1e-5f);
+    giveBits(lane, sdfIsBlocked(origin, 0.0f, direction, far, kCubes) ? 1u : 0u);
+    give(lane, sdfWayOut(origin, 0.0f, direction, kCubes).distance, 1e-5f);
 }

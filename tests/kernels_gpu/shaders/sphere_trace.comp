@@ -6,7 +6,7 @@
 
 // Rays that meet a ball well: towards its middle, from outside.
 void evaluate(INOUT(Lane) lane) {
-    const SdfSolid ball = sdfSolid(takeIndex(lane, 4));
+    const SdfSolid ball = sdfSolid(kCubes + takeIndex(lane, 4));
     const vec3 target = ball.centre + takeVector(lane, -0.3f, 0.3f);
     const vec3 side = takeDirection(lane);
     const float away = takeBetween(lane, 1.2f, 6.0f);

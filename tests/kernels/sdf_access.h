@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "kernels/sdf/cluster.h"
+
+namespace probegi::kernels {
+
+/// What the kernels of the folder sdf find, of all tests: C++ has one sdfSolid() for all files of a program.
+inline std::vector<SdfSolid> theSolids;
+inline std::vector<SdfCluster> theClusters;
+
+inline SdfSolid sdfSolid(int number) {
+    return theSolids[std::size_t(number)];
+}
+inline SdfCluster sdfCluster(int number) {
+    return theClusters[std::size_t(number)];
+}
+
+}  // namespace probegi::kernels
