@@ -22,8 +22,8 @@ struct FitBox {
 /// places that no ray has seen are free.
 class FitVoxels {
 public:
-    /// A grid of about `resolution` cubes along its longest side around the rays and their ends, in frame number `frame`, as
-    /// whose coordinates those of the rays are.
+    /// A grid of about `resolution` cubes along its longest side around the rays and their ends, in frame number
+    /// `frame`, as whose coordinates those of the rays are.
     FitVoxels(std::span<const FitRay> rays, int resolution, int frame);
 
     /// Forgets all rays.
