@@ -32,7 +32,7 @@ for scene in "${scenes[@]}"; do
         END {
             printf "| %s | %d | %.3g | %.3g | %s | %s | %s | %.1f |\n", name, value["primitives"],
                 100 * value["toPrimitives"], 100 * value["toScene"], percent(value["leaking"]),
-                value["skyRays"] > 0 ? percent(value["blockedSky"]) : "no sky", percent(value["startInside"]),
+                (value["skyRays"] > 0 ? percent(value["blockedSky"]) : "no sky"), percent(value["startInside"]),
                 value["seconds"]
         }' "$work/stats.json"
     rm -f "$work/fit.sdf.json"
