@@ -11,6 +11,7 @@ static_assert(int(SdfShape::box) == int(kernels::kSdfBox) &&
               int(SdfShape::sphere) == int(kernels::kSdfSphere) &&
               int(SdfShape::capsule) == int(kernels::kSdfCapsule) &&
               int(SdfShape::cylinder) == int(kernels::kSdfCylinder) && int(SdfShape::plane) == int(kernels::kSdfPlane));
+static_assert(sizeof(kernels::SdfSolid) == kSdfPrimitiveBytes);
 
 kernels::SdfSolid makeSolid(const SdfPrimitive& primitive, const glm::mat4& frame) {
     const float scale = glm::length(glm::vec3(frame[0]));

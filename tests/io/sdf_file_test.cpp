@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <glm/gtc/quaternion.hpp>
@@ -164,6 +165,38 @@ TEST(SdfFile, refusesToSaveWhatIsInvalid) {
     EXPECT_THAT(saved.error().message, HasSubstr("half size along x -1"));
     EXPECT_FALSE(fs::exists(path));
     EXPECT_EQ(saveSdf("no/such/folder/x.json", everyShape()).error().code, ErrorCode::writeFailed);
+}
+
+TEST(SdfFile, keepsColoursOfFacesInEightBits) {
+    SdfScene sdf{{SdfPrimitive{}}};
+    for (int i = 0; i < 216; ++i) sdf.primitives[0].faces.push_back({float(i) / 215, 0, 1});
+    const auto read = readText(io::sdfText(sdf));
+    ASSERT_TRUE(read) << read.error().message;
+    const auto& faces = read->primitives[0].faces;
+    ASSERT_EQ(faces.size(), 216u);
+    for (std::size_t i = 0; i < 216; ++i) {
+        EXPECT_NEAR(std::sqrt(faces[i].x), std::sqrt(float(i) / 215), 0.5f / 255 + 1e-6f);
+        EXPECT_EQ(faces[i].y, 0);
+        EXPECT_EQ(faces[i].z, 1);
+    }
+    EXPECT_EQ(io::sdfText(*read), io::sdfText(sdf));  // once in eight bits, they stay
+}
+
+TEST(SdfFile, refusesBrokenColoursOfFaces) {
+    const auto withFaces = [](const std::string& faces) {
+        return readOne(R"({"shape": "box", "centre": [0, 0, 0], "halfSize": [1, 1, 1], "faces": )" + faces + "}");
+    };
+    const std::string face(216, 'a'), odd = std::string(215, 'a') + "g";
+    const auto list = [](const std::string& first, const std::string& rest, int count) {
+        std::string text = "[\"" + first + "\"";
+        for (int i = 1; i < count; ++i) text += ", \"" + rest + "\"";
+        return text + "]";
+    };
+    EXPECT_TRUE(withFaces(list(face, face, 6)));
+    expectRefused(withFaces(list(face, face, 5)), ErrorCode::malformed, "6 texts of 216");
+    expectRefused(withFaces(list(face + "aa", face, 6)), ErrorCode::malformed, "6 texts of 216");
+    expectRefused(withFaces(list(odd, face, 6)), ErrorCode::malformed, "hexadecimal");
+    expectRefused(withFaces("[1, 2]"), ErrorCode::malformed, "list of texts");
 }
 
 }  // namespace

@@ -37,6 +37,21 @@ TEST(ValidateSdf, acceptsEveryShapeWithWhatItUses) {
     EXPECT_EQ(faultOf(named(SdfShape::plane, {kNan, kNan, kNan})), "");
 }
 
+TEST(ValidateSdf, looksAtTheColoursOfFaces) {
+    SdfPrimitive box = named(SdfShape::box, {1, 2, 3});
+    box.faces.assign(216, glm::vec3(0.5f));
+    EXPECT_EQ(faultOf(box), "");
+    box.faces[100].y = 1.5f;
+    EXPECT_THAT(faultOf(box), testing::HasSubstr("texel of its faces"));
+    box.faces[100].y = kNan;
+    EXPECT_THAT(faultOf(box), testing::HasSubstr("texel of its faces"));
+    box.faces.resize(36);
+    EXPECT_THAT(faultOf(box), testing::HasSubstr("36 texels"));
+    SdfPrimitive ball = named(SdfShape::sphere, {1, 1, 1});
+    ball.faces.assign(216, glm::vec3(0.5f));
+    EXPECT_THAT(faultOf(ball), testing::HasSubstr("only boxes"));
+}
+
 TEST(ValidateSdf, namesThePrimitiveAndTheFault) {
     const auto expectFault = [](const std::function<void(SdfPrimitive&)>& spoil, const char* fault) {
         SdfPrimitive primitive = named(SdfShape::roundedBox, {1, 2, 3});

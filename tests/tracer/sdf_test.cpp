@@ -47,6 +47,20 @@ TEST_P(Sdf, tellsTheSurface) {
     EXPECT_FALSE(shoot(*tracer, rayAlong({0, 0, 0}, {-1, 0, 0})).hit.valid());
 }
 
+// Black faces but for +Z, which is red to the left of its middle and green to the right: texels of a third of a metre.
+TEST_P(Sdf, showsTheColoursOfFaces) {
+    SdfPrimitive box = sdfBox({-1, -1, -7}, {1, 1, -5});
+    box.faces.assign(216, glm::vec3(0.0f));
+    for (std::size_t i = 0; i < 36; ++i) box.faces[5 * 36 + i] = i % 6 < 3 ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+    const auto tracer = make({{box}});
+    const auto albedoAt = [&](float x) { return shoot(*tracer, rayAlong({x, 0.2f, 0}, {0, 0, -1})).surface.albedo; };
+    EXPECT_LT(glm::length(albedoAt(-0.6f) - glm::vec3(1, 0, 0)), 1e-4f);
+    EXPECT_LT(glm::length(albedoAt(0.6f) - glm::vec3(0, 1, 0)), 1e-4f);
+    EXPECT_LT(glm::length(albedoAt(0.0f) - glm::vec3(0.5f, 0.5f, 0)), 1e-4f);
+    const Shot back = shoot(*tracer, rayAlong({0.6f, 0.2f, -12}, {0, 0, 1}));
+    EXPECT_LT(glm::length(back.surface.albedo), 1e-4f);
+}
+
 // Where solids overlap or touch there is no surface between them.
 TEST_P(Sdf, leavesTheUnionAsOneSolid) {
     const auto tracer =

@@ -47,7 +47,7 @@ public:
     double cost() const;
     /// What each box saves: the rise of the mean cost if it were taken away.
     std::vector<double> worth() const;
-    /// What a new box would save, and what another in the place of one.
+    /// What a new box would save.
     double saves(const FitBox& box) const;
     void replace(std::size_t number, const FitBox& box, float step);
     void append(const FitBox& box, float step);
