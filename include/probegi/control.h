@@ -17,12 +17,15 @@
 namespace probegi {
 
 class Masks;
+class SdfBlockers;
 
 /// The second axis of the pipeline: which of the eight surrounding probes a point may use.
 enum class LeakGuard : std::uint8_t {
-    none,     ///< trilinear and backface weights only: the leaking baseline
-    moments,  ///< DDGI: Chebyshev test on distance moments (section 2.2 and 4.1)
-    masks,    ///< visibility baked for the place itself (FieldSettings::masks), and moments where that sees no probe
+    none,       ///< trilinear and backface weights only: the leaking baseline
+    moments,    ///< DDGI: Chebyshev test on distance moments (section 2.2 and 4.1)
+    masks,      ///< visibility baked for the place itself (FieldSettings::masks), and moments where that sees no probe
+    sdfShadow,  ///< SDFDDGI: soft shadows of primitives (FieldSettings::blockers), tested for each point and probe, and
+                ///< moments where that sees no probe (section 3.4)
 };
 
 /// What an update ray that hits the back of a single-sided surface does to irradiance (section 4.1).
@@ -104,6 +107,8 @@ struct FieldSettings {
     LeakGuard guard = LeakGuard::moments;
     /// For LeakGuard::masks, which needs them: bakeMasks() of these volumes. Such volumes cannot scroll.
     std::shared_ptr<const Masks> masks{};
+    /// For LeakGuard::sdfShadow, which needs them: placeSdf().
+    std::shared_ptr<const SdfBlockers> blockers{};
     /// Where the viewer stands, metres, in the world: volumes with VolumeDesc::tracksCamera answer around it. Empty:
     /// they answer as others do. Field::followCamera sets it.
     std::optional<glm::vec3> camera{};

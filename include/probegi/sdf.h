@@ -80,6 +80,25 @@ PROBEGI_API float signedDistance(const SdfScene& sdf, glm::vec3 point);
 PROBEGI_API Result<std::unique_ptr<MovableTracer>> makeSdfTracer(const Context& context, const SdfScene& sdf,
                                                                  const Scene& scene, const ScenePose& pose);
 
+/// The solids of a scene of primitives at one moment, against which look-ups test which probes a point sees
+/// (FieldSettings::blockers). Immutable; any number of fields may share them.
+class PROBEGI_API SdfBlockers {
+public:
+    std::size_t size() const noexcept;
+    ~SdfBlockers();
+
+    struct Impl;
+    explicit SdfBlockers(std::unique_ptr<Impl> impl);
+    const Impl& impl() const noexcept { return *m_impl; }
+
+private:
+    std::unique_ptr<Impl> m_impl;
+};
+
+/// Places primitives for LeakGuard::sdfShadow; of things that move, again for each pose. Errors: as makeSdfTracer().
+PROBEGI_API Result<std::shared_ptr<const SdfBlockers>> placeSdf(const SdfScene& sdf, const Scene& scene,
+                                                                const ScenePose& pose);
+
 /// Reads primitives from JSON (docs/sdf.md describes the format). They have passed validate(). Errors: fileNotFound,
 /// fileUnreadable, malformed (with the primitive's number and name), unsupported (a later version of the format),
 /// outOfMemory.

@@ -11,6 +11,7 @@
 #include "kernels/probe/irradiance_decoding.h"
 #include "kernels/probe/storage.h"
 #include "probegi/masks.h"
+#include "sdf/sdf_blockers.h"
 
 namespace probegi {
 
@@ -30,7 +31,7 @@ double millisecondsSince(Clock::time_point start) {
 Result<Field> Field::create(const Context& context, const FieldDesc& desc, const FieldSettings& settings) {
     if (auto ok = validateFieldDesc(desc); !ok) return ok.error();
     if (auto ok = validateFieldSettings(settings); !ok) return ok.error();
-    if (auto ok = validateMasks(desc, settings); !ok) return ok.error();
+    if (auto ok = validateGuard(desc, settings); !ok) return ok.error();
     const FieldLayout layout(desc);
     if (layout.probes * layout.visibilityTexels > kMostVisibilityTexels) return probesDoNotFit(desc);
     try {
@@ -66,6 +67,7 @@ FieldView CpuField::view(const FieldSettings& settings) const noexcept {
             .maskWords = settings.masks ? settings.masks->words().data() : nullptr,
             .maskTexels = settings.masks ? settings.masks->factor() : 2,
             .maskPacked = settings.masks && settings.masks->packed(),
+            .blockers = blockersOf(settings.blockers.get()),
             .fallbacks = &m_fallbacks,
             .irradianceTaps = &m_irradianceTaps,
             .visibilityTaps = &m_visibilityTaps};

@@ -15,6 +15,7 @@ public:
     int guard;
     float selfShadowBias;
     int maskTexels, maskPacked;
+    int blockers;
 
     explicit FieldAccess(const FieldView& view)
         : rules(view.rules == FieldRules::paper ? kernels::kRulesPaper : kernels::kRulesMeasured),
@@ -22,12 +23,16 @@ public:
           selfShadowBias(view.selfShadowBias),
           maskTexels(view.maskTexels),
           maskPacked(view.maskPacked ? 1 : 0),
+          blockers(int(view.blockers.size())),
           m_view(view) {}
 
     friend float storedBackfaceShare(const FieldAccess& a, int slot) { return a.m_view.backfaceShare[slot]; }
     friend int storedPlacement(const FieldAccess& a, int slot) { return int(a.m_view.placements[slot]); }
     friend float givenVisibility(const FieldAccess&, int) { return 1.0f; }
     friend int maskWord(const FieldAccess& a, int number) { return int(a.m_view.maskWords[number]); }
+    friend const kernels::SdfBlocker& blockerAt(const FieldAccess& a, int number) {
+        return a.m_view.blockers[std::size_t(number)];
+    }
     friend void countFallback(const FieldAccess& a) {
         if (a.m_view.fallbacks) a.m_view.fallbacks->fetch_add(1, std::memory_order_relaxed);
     }

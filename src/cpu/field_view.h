@@ -8,6 +8,7 @@
 
 #include "cpu/field_storage.h"
 #include "field/volume_access.h"
+#include "kernels/sdf/sdf_solid.h"
 #include "kernels/volume/volume.h"
 
 namespace probegi {
@@ -35,6 +36,7 @@ struct FieldView {
     const std::uint32_t* maskWords = nullptr;   ///< with LeakGuard::masks: kernels/guards/masks.h
     int maskTexels = 2;                         ///< along a cell's edge
     bool maskPacked = false;
+    std::span<const kernels::SdfBlocker> blockers{};  ///< with LeakGuard::sdfShadow
     std::atomic<std::uint64_t>* fallbacks = nullptr;  ///< counts the queries whose cage had too little weight
     const TapTable* irradianceTaps = nullptr;
     const TapTable* visibilityTaps = nullptr;

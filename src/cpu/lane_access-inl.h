@@ -30,11 +30,14 @@ public:
     static constexpr int guard = kGuard;
     float selfShadowBias;
     int maskTexels, maskPacked;
+    int blockers;
 
     explicit LaneAccess(const FieldView& view)
         : selfShadowBias(view.selfShadowBias),
           maskTexels(view.maskTexels),
           maskPacked(view.maskPacked ? 1 : 0),
+          blockers(int(view.blockers.size())),
+          m_blockers(view.blockers.data()),
           m_masks(reinterpret_cast<const std::int32_t*>(view.maskWords)),
           m_backfaceShare(view.backfaceShare),
           m_placements(reinterpret_cast<const std::int32_t*>(view.placements)),
@@ -58,6 +61,10 @@ public:
 
     HWY_INLINE friend Int maskWord(const LaneAccess& a, const Int& number) {
         return kernels::HWY_NAMESPACE::gather(a.m_masks, number);
+    }
+
+    HWY_INLINE friend const kernels::SdfBlocker& blockerAt(const LaneAccess& a, int number) {
+        return a.m_blockers[number];
     }
 
     HWY_INLINE friend MapPoint visibilityPoint(const LaneAccess& a, const Real3& direction) {
@@ -120,6 +127,7 @@ private:
         return (top + fy * (bottom - top)) * (1.0f / 65535.0f);
     }
 
+    const kernels::SdfBlocker* m_blockers;
     const std::int32_t* m_masks;
     const float* m_backfaceShare;
     const std::int32_t* m_placements;

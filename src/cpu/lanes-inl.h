@@ -121,6 +121,12 @@ HWY_INLINE Real max(const Real& a, const Real& b) {
 HWY_INLINE Real min(const Real& a, const Real& b) {
     return Real(hn::Min(a.lanes, b.lanes));
 }
+HWY_INLINE Real3 abs(const Real3& v) {
+    return {abs(v.x), abs(v.y), abs(v.z)};
+}
+HWY_INLINE Real3 max(const Real3& v, vec3 low) {
+    return {max(v.x, low.x), max(v.y, low.y), max(v.z, low.z)};
+}
 HWY_INLINE Real dot(const Real3& a, const Real3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -212,6 +218,9 @@ using kernels::select;
 #undef PROBEGI_KERNELS_PROBE_CAGE_H
 #undef PROBEGI_KERNELS_PROBE_OFFSET_H
 #undef PROBEGI_KERNELS_PROBE_QUERY_H
+#undef PROBEGI_KERNELS_SDF_CLEARANCE_H
+#undef PROBEGI_KERNELS_SDF_DISTANCE_H
+#undef PROBEGI_KERNELS_SDF_WAY_OUT_H
 #undef PROBEGI_KERNELS_SURFACE_GRADIENT_H
 #undef PROBEGI_KERNELS_VOLUME_FRAME_H
 #define KERNELS_IN_LANES  // for the headers of kernels/guards, whose names only list.h knows

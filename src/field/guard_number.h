@@ -18,5 +18,6 @@ inline constexpr std::string_view kGuardRows[] = {PROBEGI_GUARDS(GUARD)};
 static_assert(kGuardRows[guardNumber(LeakGuard::none)] == "noneSeen");
 static_assert(kGuardRows[guardNumber(LeakGuard::moments)] == "momentsSeen");
 static_assert(kGuardRows[guardNumber(LeakGuard::masks)] == "masksSeen");
+static_assert(kGuardRows[guardNumber(LeakGuard::sdfShadow)] == "sdfShadowSeen");
 
 }  // namespace probegi

@@ -60,7 +60,7 @@ Result<void> validateFieldDesc(const FieldDesc& desc);
 Result<void> validateFieldSettings(const FieldSettings& settings);
 /// Whether the masks that the settings have are there where they are needed, and of these volumes, which must stand
 /// where the desc has them. Errors: invalidArgument.
-Result<void> validateMasks(const FieldDesc& desc, const FieldSettings& settings,
+Result<void> validateGuard(const FieldDesc& desc, const FieldSettings& settings,
                            std::span<const glm::ivec3> scrolled = {});
 /// Whether coordinates are fine enough where the volume stands. Errors: invalidArgument, with the volume's `name`.
 Result<void> validateVolumePlace(const std::string& name, const VolumeDesc& volume);

@@ -102,7 +102,9 @@ Result<void> validateFieldSettings(const FieldSettings& s) {
         .and_then([&] { return checkOutside(s); });
 }
 
-Result<void> validateMasks(const FieldDesc& desc, const FieldSettings& s, std::span<const glm::ivec3> scrolled) {
+Result<void> validateGuard(const FieldDesc& desc, const FieldSettings& s, std::span<const glm::ivec3> scrolled) {
+    if (s.guard == LeakGuard::sdfShadow && !s.blockers)
+        return fail(ErrorCode::invalidArgument, "LeakGuard::sdfShadow needs FieldSettings::blockers; place them first");
     if (s.guard != LeakGuard::masks) return {};
     if (!s.masks)
         return fail(ErrorCode::invalidArgument, "LeakGuard::masks needs FieldSettings::masks; bake them first");

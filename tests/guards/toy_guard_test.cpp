@@ -8,7 +8,7 @@ namespace probegi::test {
 namespace {
 
 constexpr float kPi = 3.14159265f;
-constexpr LeakGuard kToy{3};  // the row in list/kernels/guards/list.h
+constexpr LeakGuard kToy{4};  // the row in list/kernels/guards/list.h
 
 class ToyGuard : public testing::TestWithParam<BackendMaker> {
 protected:

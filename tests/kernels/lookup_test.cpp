@@ -34,9 +34,11 @@ struct FormulaField {
     std::function<int(int)> placement = [](int) { return 0; };
     std::array<float, 8> given = {1, 1, 1, 1, 1, 1, 1, 1};
     std::vector<std::uint32_t> masks;
+    int blockers = 0;
     mutable int fallbacks = 0;
 
     friend int maskWord(const FormulaField& f, int number) { return int(f.masks.at(std::size_t(number))); }
+    friend SdfBlocker blockerAt(const FormulaField&, int) { return {}; }
     friend vec3 visibilityPoint(const FormulaField&, vec3 direction) { return normalize(direction); }
     friend vec3 irradiancePoint(const FormulaField&, vec3 normal) { return normal; }
     friend vec3 axisPoint(const FormulaField&, const Volume& v, int axis, bool up) {
@@ -327,21 +329,21 @@ TEST(Guards, momentsTestTheBiasedPoint) {
     // Exact in binary, as is their variance, so that constant folding and fused operations change nothing.
     field.moments = [](int slot, vec3 at) { return slot == 7 && at.x > 0.9f ? vec2(0.25f, 0.125f) : vec2(0.0f); };
     // 1.25 m are 0.5 of the farthest distance.
-    EXPECT_EQ(guardSeen(field, v, 7, vec3(1.25f, 0, 0), noGuardPoint()),
+    EXPECT_EQ(guardSeen(field, v, 7, 0, vec3(1.25f, 0, 0), noGuardPoint()),
               chebyshevWeight(0.25f, 0.125f, 0.5f, kRulesMeasured));
-    EXPECT_EQ(momentsBetween(field, v, 7, 1, vec3(1, 0, 0), 1.25f),
-              guardSeen(field, v, 7, vec3(1.25f, 0, 0), noGuardPoint()));
-    EXPECT_EQ(guardFar(field, v, 7, vec3(1.25f, 0, 0)), guardSeen(field, v, 7, vec3(1.25f, 0, 0), noGuardPoint()));
+    EXPECT_EQ(momentsBetween(field, v, 7, 1, vec3(1, 0, 0), 1.25f, vec3(0.0f)),
+              guardSeen(field, v, 7, 0, vec3(1.25f, 0, 0), noGuardPoint()));
+    EXPECT_EQ(guardFar(field, v, 7, vec3(1.25f, 0, 0)), guardSeen(field, v, 7, 0, vec3(1.25f, 0, 0), noGuardPoint()));
     EXPECT_EQ(guardFar(field, v, 7, vec3(9, 0, 0)), chebyshevFloor(kRulesMeasured));
-    EXPECT_EQ(momentsSeen(field, v, 8, vec3(1.25f, 0, 0), noGuardPoint()), chebyshevFloor(kRulesMeasured));
+    EXPECT_EQ(momentsSeen(field, v, 8, 0, vec3(1.25f, 0, 0), noGuardPoint()), chebyshevFloor(kRulesMeasured));
     EXPECT_EQ(momentsFar(field, v, 8, vec3(1.25f, 0, 0)), chebyshevFloor(kRulesMeasured));
     // Maps are stored by world directions: the volume's x is the world's -z here.
     Volume turned = v;
     turned.turned = 1;
     turned.orientation = vec4(0, std::sqrt(0.5f), 0, std::sqrt(0.5f));
-    EXPECT_EQ(guardSeen(field, turned, 7, vec3(1.25f, 0, 0), noGuardPoint()), chebyshevFloor(kRulesMeasured));
-    EXPECT_NEAR(guardSeen(field, turned, 7, vec3(0, 0, 1.25f), noGuardPoint()),
-                guardSeen(field, v, 7, vec3(1.25f, 0, 0), noGuardPoint()), 1e-5f);
+    EXPECT_EQ(guardSeen(field, turned, 7, 0, vec3(1.25f, 0, 0), noGuardPoint()), chebyshevFloor(kRulesMeasured));
+    EXPECT_NEAR(guardSeen(field, turned, 7, 0, vec3(0, 0, 1.25f), noGuardPoint()),
+                guardSeen(field, v, 7, 0, vec3(1.25f, 0, 0), noGuardPoint()), 1e-5f);
     EXPECT_NEAR(axisDirection(turned, 2, true).x, 1.0f, 1e-6f);
 }
 
@@ -349,11 +351,11 @@ TEST(Guards, noneGuardsNothing) {
     const Volume v = makeVolume();
     FormulaField field;
     field.moments = [](int, vec3) { return vec2(0.0f); };
-    EXPECT_EQ(guardSeen(field, v, 7, vec3(1, 0, 0), noGuardPoint()), 1.0f);
-    EXPECT_EQ(guardBetween(field, v, 7, 1, vec3(1, 0, 0), 1.0f), 1.0f);
+    EXPECT_EQ(guardSeen(field, v, 7, 0, vec3(1, 0, 0), noGuardPoint()), 1.0f);
+    EXPECT_EQ(guardBetween(field, v, 7, 1, vec3(1, 0, 0), 1.0f, vec3(0.0f)), 1.0f);
     EXPECT_EQ(guardFar(field, v, 7, vec3(1, 0, 0)), 1.0f);
-    EXPECT_EQ(noneSeen(field, v, 7, vec3(1, 0, 0), noGuardPoint()) * noneFar(field, v, 7, vec3(1, 0, 0)), 1.0f);
-    EXPECT_EQ(noneBetween(field, v, 7, 1, vec3(1, 0, 0), 1.0f), 1.0f);
+    EXPECT_EQ(noneSeen(field, v, 7, 0, vec3(1, 0, 0), noGuardPoint()) * noneFar(field, v, 7, vec3(1, 0, 0)), 1.0f);
+    EXPECT_EQ(noneBetween(field, v, 7, 1, vec3(1, 0, 0), 1.0f, vec3(0.0f)), 1.0f);
 }
 
 TEST(Access, componentsByAxis) {

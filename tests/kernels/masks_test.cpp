@@ -171,22 +171,22 @@ TEST(Masks, aSurfaceLooksAheadOfItself) {
     for (const float rounding : {-1e-6f, 0.0f, 1e-6f}) {
         const vec3 point(0.5f + rounding, 0.4f, 0.6f);
         const Cage right = cageAround(v, point, vec3(1, 0, 0), vec3(0), 0.3f, kRulesMeasured);
-        EXPECT_EQ(shares(masksPoint(field, v, right, 0))[0], 0);
+        EXPECT_EQ(shares(masksPoint(field, v, right, cageSlots(v, right.base)))[0], 0);
         const Cage left = cageAround(v, point, vec3(-1, 0, 0), vec3(0), 0.3f, kRulesMeasured);
-        EXPECT_EQ(shares(masksPoint(field, v, left, 0))[1], 0);
+        EXPECT_EQ(shares(masksPoint(field, v, left, cageSlots(v, left.base)))[1], 0);
     }
     // At the cell's last face there is no texel ahead.
     const Cage last = cageAround(v, vec3(1, 0.5f, 0.5f), vec3(1, 0, 0), vec3(0), 0.3f, kRulesMeasured);
-    EXPECT_GT(shares(masksPoint(field, v, last, 0))[1], 0.9f);
+    EXPECT_GT(shares(masksPoint(field, v, last, cageSlots(v, last.base)))[1], 0.9f);
 }
 
 TEST(Masks, decideForTheProbesOfTheirCluster) {
     const CubeField field([](ivec3) { return 0x26u; });
     const Volume v = oneCell();
     const Cage cage = cageAround(v, vec3(0.4f), vec3(0, 1, 0), vec3(0), 0.3f, kRulesMeasured);
-    const GuardPoint point = masksPoint(field, v, cage, 0);
+    const GuardPoint point = masksPoint(field, v, cage, cageSlots(v, cage.base));
     for (int slot = 0; slot < 8; ++slot)
-        EXPECT_NEAR(masksSeen(field, v, slot, vec3(1, 0, 0), point), 0x26 >> slot & 1, 0.04f) << slot;
+        EXPECT_NEAR(masksSeen(field, v, slot, slot, vec3(1, 0, 0), point), 0x26 >> slot & 1, 0.04f) << slot;
     EXPECT_EQ(field.asked, 0) << "moments are not needed";
     EXPECT_EQ(maskCluster(0x7f05), 5);
 }
@@ -195,8 +195,8 @@ TEST(Masks, blindPointsAskTheMoments) {
     const CubeField field([](ivec3) { return 0u; });
     const Volume v = oneCell();
     const Cage cage = cageAround(v, vec3(0.4f), vec3(0, 1, 0), vec3(0), 0.3f, kRulesMeasured);
-    const GuardPoint point = masksPoint(field, v, cage, 0);
-    EXPECT_EQ(masksSeen(field, v, 3, vec3(1, 0, 0), point), momentsSeen(field, v, 3, vec3(1, 0, 0), point));
+    const GuardPoint point = masksPoint(field, v, cage, cageSlots(v, cage.base));
+    EXPECT_EQ(masksSeen(field, v, 3, 3, vec3(1, 0, 0), point), momentsSeen(field, v, 3, 3, vec3(1, 0, 0), point));
     EXPECT_EQ(masksFar(field, v, 3, vec3(1, 0, 0)), momentsFar(field, v, 3, vec3(1, 0, 0)));
     EXPECT_GT(field.asked, 0);
 }
@@ -214,7 +214,7 @@ TEST(Masks, linksAreBitsOfTheProbe) {
     const Volume v = oneCell();
     field.words[2 * 5 + 1] |= 0b100101u << 8;
     for (int side = 0; side < 6; ++side)
-        EXPECT_EQ(masksBetween(field, v, 5, side, vec3(1, 0, 0), 1.0f), float(0b100101 >> side & 1));
+        EXPECT_EQ(masksBetween(field, v, 5, side, vec3(1, 0, 0), 1.0f, vec3(0.0f)), float(0b100101 >> side & 1));
 }
 
 }  // namespace

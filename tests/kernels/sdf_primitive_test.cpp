@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "kernels/sdf/distance.h"
+#include "kernels/sdf/sdf_solid.h"
 #include "kernels/sdf_solids.h"
 
 namespace probegi::kernels {

@@ -169,7 +169,7 @@ TEST(Pool, tilesFillRowsThenLayers) {
 // Maps of 8 texels with a border of one lie 10 apart.
 TEST(FieldConstants, holdAsManyVolumesAsAFieldMayHave) {
     EXPECT_EQ(sizeof(FieldConstants),
-              48 + kMostVolumes * sizeof(Volume) + sizeof(VolumeBlending) + sizeof(RaySet) + 16);
+              48 + kMostVolumes * sizeof(Volume) + sizeof(VolumeBlending) + sizeof(RaySet) + 28);
     EXPECT_GE(kMostVolumes, 16);
 }
 

@@ -13,6 +13,7 @@
 #include "kernels/probe/octahedral_texel.h"
 #include "kernels/probe/probe_texel.h"
 #include "probegi/masks.h"
+#include "sdf/sdf_blockers.h"
 
 namespace probegi::test {
 
@@ -26,6 +27,8 @@ struct SnapshotAccess : VolumeAccess {
     float selfShadowBias;
     int maskTexels, maskPacked;
     std::span<const std::uint32_t> masks;
+    int blockers;
+    std::span<const kernels::SdfBlocker> solids;
     const FieldSnapshot& probes;
     std::span<const kernels::Volume> volumes;
     std::atomic<std::uint64_t>& fallbacks;
@@ -52,6 +55,7 @@ struct SnapshotAccess : VolumeAccess {
         return {kernels::encodeIrradiance(e.x), kernels::encodeIrradiance(e.y), kernels::encodeIrradiance(e.z)};
     }
     friend int maskWord(const SnapshotAccess& a, int number) { return int(a.masks[std::size_t(number)]); }
+    friend kernels::SdfBlocker blockerAt(const SnapshotAccess& a, int number) { return a.solids[std::size_t(number)]; }
     friend float givenVisibility(const SnapshotAccess&, int) { return 1.0f; }
     friend void countFallback(const SnapshotAccess& a) { ++a.fallbacks; }
 };
@@ -163,6 +167,8 @@ glm::vec3 PlainField::irradiance(const FieldSettings& settings, const FieldQuery
                                 settings.masks ? settings.masks->factor() : 2,
                                 settings.masks && settings.masks->packed() ? 1 : 0,
                                 settings.masks ? settings.masks->words() : std::span<const std::uint32_t>(),
+                                int(blockersOf(settings.blockers.get()).size()),
+                                blockersOf(settings.blockers.get()),
                                 m_probes,
                                 m_volumes,
                                 m_fallbacks};

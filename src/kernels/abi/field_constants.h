@@ -42,6 +42,8 @@ struct FieldConstants {
     uvec2 masks;     // address of the words of kernels/guards/masks.h; 0: none
     int maskTexels;  // along a cell's edge
     int maskPacked;  // 1: two texels to a word
+    uvec2 blockers;  // address of SdfBlocker[]; 0: none
+    int blockerCount;
 };
 
 KERNELS_END

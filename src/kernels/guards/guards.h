@@ -6,26 +6,26 @@
 
 KERNELS_BEGIN
 
-LOOKUP_FN GuardPoint guardPoint(IN(Access) access, IN(Volume) v, IN(Cage) cage, Int slot) {
+LOOKUP_FN GuardPoint guardPoint(IN(Access) access, IN(Volume) v, IN(Cage) cage, IN(CageSlots) slots) {
 #define GUARD(number, point, seen, between, farther) \
-    if (access.guard == number) return point(access, v, cage, slot);
+    if (access.guard == number) return point(access, v, cage, slots);
     PROBEGI_GUARDS(GUARD)
 #undef GUARD
     return noGuardPoint();
 }
 
-LOOKUP_FN Real guardSeen(IN(Access) access, IN(Volume) v, Int slot, Real3 fromProbe, IN(GuardPoint) of) {
+LOOKUP_FN Real guardSeen(IN(Access) access, IN(Volume) v, Int slot, int corner, Real3 fromProbe, IN(GuardPoint) of) {
 #define GUARD(number, point, seen, between, farther) \
-    if (access.guard == number) return seen(access, v, slot, fromProbe, of);
+    if (access.guard == number) return seen(access, v, slot, corner, fromProbe, of);
     PROBEGI_GUARDS(GUARD)
 #undef GUARD
     return Real(1.0f);
 }
 
 LOOKUP_FN Real guardBetween(IN(Access) access, IN(Volume) v, Int slot, Int side, OF_ACCESS(MapPoint) along,
-                            Real distance) {
+                            Real distance, Real3 front) {
 #define GUARD(number, point, seen, between, farther) \
-    if (access.guard == number) return between(access, v, slot, side, along, distance);
+    if (access.guard == number) return between(access, v, slot, side, along, distance, front);
     PROBEGI_GUARDS(GUARD)
 #undef GUARD
     return Real(1.0f);

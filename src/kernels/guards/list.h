@@ -1,13 +1,14 @@
 // The list of leak guards: which of the probes around a point it may use. A guard is a header of this folder with four
 // functions (Access and GuardPoint are lookup/access.h's), of which three say 0..1:
 //
-//     // What the guard notes of a point, once, for the eight calls of the next. `slot`: of the cage's lowest probe
-//     GuardPoint NAMEPoint(Access access, Volume v, Cage cage, Int slot)
-//     // How far the point may use a probe of its cage. `fromProbe`: from the probe to the point with its bias, metres
-//     Real NAMESeen(Access access, Volume v, Int slot, Real3 fromProbe, GuardPoint point)
+//     // What the guard notes of a point, once, for the eight calls of the next. `slots`: of the cage's probes
+//     GuardPoint NAMEPoint(Access access, Volume v, Cage cage, CageSlots slots)
+//     // How far the point may use a probe of its cage, the one at `corner`. `fromProbe`: from the probe to the point
+//     // with its bias, metres
+//     Real NAMESeen(Access access, Volume v, Int slot, int corner, Real3 fromProbe, GuardPoint point)
 //     // How far a probe sees the one that stands `distance` metres away along an axis of the volume, 2 axis + up being
-//     // `side`. `along`: axisPoint()
-//     Real NAMEBetween(Access access, Volume v, Int slot, Int side, MapPoint along, Real distance)
+//     // `side`. `along`: axisPoint(); `front`: where it stands
+//     Real NAMEBetween(Access access, Volume v, Int slot, Int side, MapPoint along, Real distance, Real3 front)
 //     // NAMESeen() for the neighbours of a cage with too little weight, of one point in plain C++ and GLSL
 //     Real NAMEFar(Access access, Volume v, Int slot, Real3 fromProbe)
 //
@@ -19,13 +20,15 @@
 #include "kernels/guards/moments.h"
 #include "kernels/guards/none.h"
 
-// Asks the moments where it knows nothing.
+// These ask the moments where they know nothing.
 #include "kernels/guards/masks.h"
+#include "kernels/guards/sdf_shadow.h"
 
 // Number, and the four functions, in the order of probegi::LeakGuard.
 #define PROBEGI_GUARDS(GUARD)                                       \
     GUARD(0, nonePoint, noneSeen, noneBetween, noneFar)             \
     GUARD(1, momentsPoint, momentsSeen, momentsBetween, momentsFar) \
-    GUARD(2, masksPoint, masksSeen, masksBetween, masksFar)
+    GUARD(2, masksPoint, masksSeen, masksBetween, masksFar)         \
+    GUARD(3, sdfShadowPoint, sdfShadowSeen, sdfShadowBetween, sdfShadowFar)
 
 #endif

@@ -105,8 +105,8 @@ LOOKUP_FN GuardPoint maskPointAt(IN(Access) access, Int cube, Real3 texel) {
     return point;
 }
 
-// `slot`: of the cage's lowest probe.
-LOOKUP_FN GuardPoint masksPoint(IN(Access) access, IN(Volume) v, IN(Cage) cage, Int slot) {
+LOOKUP_FN GuardPoint masksPoint(IN(Access) access, IN(Volume) v, IN(Cage) cage, IN(CageSlots) slots) {
+    const Int slot = cornerSlot(v, slots, 0);
     const float last = float(access.maskTexels - 1);
     const Real3 inCell = clamp(gridCoordinates(v, cage.position) - cage.base, vec3(0.0f), vec3(1.0f)) * last;
     return maskPointAt(access, maskWord(access, slot + slot),
@@ -119,14 +119,14 @@ KERNEL_FN Real maskOf(IN(GuardPoint) point, Int cluster) {
     return toReal(shiftedRight(four, (cluster & Int(3)) * Int(8)) & Int(255)) * point.scale;
 }
 
-LOOKUP_FN Real masksSeen(IN(Access) access, IN(Volume) v, Int slot, Real3 fromProbe, IN(GuardPoint) point) {
+LOOKUP_FN Real masksSeen(IN(Access) access, IN(Volume) v, Int slot, int corner, Real3 fromProbe, IN(GuardPoint) point) {
     const Real mask = maskOf(point, maskCluster(maskWord(access, slot + slot + Int(1))));
     const Bool blind = point.scale < 0.001f;
     if (!anyOf(blind)) return mask;
-    return select(blind, momentsSeen(access, v, slot, fromProbe, point), mask);
+    return select(blind, momentsSeen(access, v, slot, corner, fromProbe, point), mask);
 }
 
-LOOKUP_FN Real masksBetween(IN(Access) access, IN(Volume), Int slot, Int side, OF_ACCESS(MapPoint), Real) {
+LOOKUP_FN Real masksBetween(IN(Access) access, IN(Volume), Int slot, Int side, OF_ACCESS(MapPoint), Real, Real3) {
     const Int links = maskWord(access, slot + slot + Int(1));
     return toReal(shiftedRight(links, side + Int(8)) & Int(1));
 }

@@ -16,11 +16,11 @@ KERNEL_FN Real neighbourVisibility(Real mean, Real meanSquare, Real distance) {
                   Real(chebyshevFloor(kRulesMeasured)));
 }
 
-LOOKUP_FN GuardPoint momentsPoint(IN(Access), IN(Volume), IN(Cage), Int) {
+LOOKUP_FN GuardPoint momentsPoint(IN(Access), IN(Volume), IN(Cage), IN(CageSlots)) {
     return noGuardPoint();
 }
 
-LOOKUP_FN Real momentsSeen(IN(Access) access, IN(Volume) v, Int slot, Real3 fromProbe, IN(GuardPoint)) {
+LOOKUP_FN Real momentsSeen(IN(Access) access, IN(Volume) v, Int slot, int, Real3 fromProbe, IN(GuardPoint)) {
     const OF_ACCESS(MapPoint) at = visibilityPoint(access, toWorldDirection(v, fromProbe));
     Real mean;
     Real meanSquare;
@@ -28,8 +28,8 @@ LOOKUP_FN Real momentsSeen(IN(Access) access, IN(Volume) v, Int slot, Real3 from
     return chebyshevWeight(mean, meanSquare, length(fromProbe) * v.inverseMaxDistance, access.rules);
 }
 
-LOOKUP_FN Real momentsBetween(IN(Access) access, IN(Volume) v, Int slot, Int, OF_ACCESS(MapPoint) along,
-                              Real distance) {
+LOOKUP_FN Real momentsBetween(IN(Access) access, IN(Volume) v, Int slot, Int, OF_ACCESS(MapPoint) along, Real distance,
+                              Real3) {
     Real mean;
     Real meanSquare;
     momentsOnAxis(access, v, slot, along, mean, meanSquare);

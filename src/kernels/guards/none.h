@@ -7,15 +7,15 @@
 
 KERNELS_BEGIN
 
-LOOKUP_FN GuardPoint nonePoint(IN(Access), IN(Volume), IN(Cage), Int) {
+LOOKUP_FN GuardPoint nonePoint(IN(Access), IN(Volume), IN(Cage), IN(CageSlots)) {
     return noGuardPoint();
 }
 
-LOOKUP_FN Real noneSeen(IN(Access), IN(Volume), Int, Real3, IN(GuardPoint)) {
+LOOKUP_FN Real noneSeen(IN(Access), IN(Volume), Int, int, Real3, IN(GuardPoint)) {
     return Real(1.0f);
 }
 
-LOOKUP_FN Real noneBetween(IN(Access), IN(Volume), Int, Int, OF_ACCESS(MapPoint), Real) {
+LOOKUP_FN Real noneBetween(IN(Access), IN(Volume), Int, Int, OF_ACCESS(MapPoint), Real, Real3) {
     return Real(1.0f);
 }
 

@@ -27,6 +27,8 @@
 //     int maskTexels;                                        // members: along a cell's edge
 //     int maskPacked;                                        // whether two texels share a word
 //     Int maskWord(Access access, Int number)
+//     // The solids of guards/sdf_shadow.h, 0 <= number < access.blockers, another member.
+//     SdfBlocker blockerAt(Access access, int number)
 //     void countFallback(Access access)                      // called by a look-up whose cage has too little weight
 //
 // A look-up in several volumes asks a few more: volume_blend.h.
@@ -35,6 +37,7 @@
 
 #include "kernels/lookup/probe_query.h"
 #include "kernels/lookup/surface_gradient.h"
+#include "kernels/sdf/sdf_solid.h"
 #include "kernels/volume/probe_offset.h"
 
 #ifdef __cplusplus
@@ -54,6 +57,7 @@ struct GuardPoint {
     Int low;
     Int high;
     Real scale;
+    Real seen[8];  // by corner of the cage
 };
 
 KERNEL_FN GuardPoint noGuardPoint() {
@@ -61,6 +65,7 @@ KERNEL_FN GuardPoint noGuardPoint() {
     point.low = Int(0);
     point.high = Int(0);
     point.scale = Real(0.0f);
+    UNROLL for (int corner = 0; corner < 8; ++corner) point.seen[corner] = Real(0.0f);
     return point;
 }
 

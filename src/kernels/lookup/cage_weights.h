@@ -36,7 +36,7 @@ KERNEL_FN Int frontCorner(Int axis, Int up, int k) {
 
 LOOKUP_FN void weighProbes(IN(Access) access, IN(Volume) v, IN(Cage) cage, IN(CageSlots) slots, INOUT(CageWeights) w) {
     const Real3 toBase = cage.base * v.spacing - (cage.position - v.origin);
-    const GuardPoint point = guardPoint(access, v, cage, cornerSlot(v, slots, 0));
+    const GuardPoint point = guardPoint(access, v, cage, slots);
     Real weightSum = Real(0.0f);
     Real ahead = Real(0.0f);
     for (int corner = 0; corner < 8; ++corner) {
@@ -48,7 +48,8 @@ LOOKUP_FN void weighProbes(IN(Access) access, IN(Volume) v, IN(Cage) cage, IN(Ca
         if (v.relocated != 0) toProbe = toProbe + probeOffset(v, storedPlacement(access, slot));
         const Real product = dot(toProbe, cage.normal);
         const Real facing = backfaceWeight(cosineToProbe(product, length(toProbe), v.minSpacing), access.rules);
-        const Real visible = guardSeen(access, v, slot, cage.bias - toProbe, point) * givenVisibility(access, corner);
+        const Real visible =
+            guardSeen(access, v, slot, corner, cage.bias - toProbe, point) * givenVisibility(access, corner);
         const Real trilinear = trilinearFactor(float(x), cage.alpha.x) * trilinearFactor(float(y), cage.alpha.y) *
                                trilinearFactor(float(z), cage.alpha.z);
         const Real weight =
@@ -76,6 +77,15 @@ LOOKUP_FN Real cellsBetween(IN(Access) access, IN(Volume) v, Int front, Int beyo
     const Real cells = more * component(axis, Real3(v.inverseSpacing));
     // No nearer than a half: what two probes side by side differ by is mostly noise.
     return max(Real(0.5f), Real(1.0f) + select(up, cells, Real(0.0f) - cells));
+}
+
+// Where the probe at a corner of the cage stands, in the volume's frame.
+LOOKUP_FN Real3 cornerPlace(IN(Access) access, IN(Volume) v, IN(Cage) cage, Int slot, Int corner) {
+    const Real3 cell = Real3(toReal(corner & Int(1)), toReal(shiftedRight(corner, Int(1)) & Int(1)),
+                             toReal(shiftedRight(corner, Int(2))));
+    const Real3 place = (cage.base + cell) * v.spacing + Real3(v.origin);
+    if (v.relocated == 0) return place;
+    return place + probeOffset(v, storedPlacement(access, slot));
 }
 
 LOOKUP_FN void weighPairs(IN(Access) access, IN(Volume) v, IN(Cage) cage, IN(CageSlots) slots, INOUT(CageWeights) w) {
@@ -115,10 +125,11 @@ LOOKUP_FN void weighPairs(IN(Access) access, IN(Volume) v, IN(Cage) cage, IN(Cag
             cells = cellsBetween(access, v, slot, slot + w.step, w.axis, up);
             distance = spacing * cells;
         }
-        const Real pair = frontWeight(w, alongX, alongZ, up, k) * alongAxis * outside *
-                          guardBetween(access, v, slot, w.axis + w.axis + w.up, along, distance);
-        pairSum = pairSum + pair;
         w.front[k] = frontCorner(w.axis, w.up, k);
+        const Real pair = frontWeight(w, alongX, alongZ, up, k) * alongAxis * outside *
+                          guardBetween(access, v, slot, w.axis + w.axis + w.up, along, distance,
+                                       cornerPlace(access, v, cage, slot, w.front[k]));
+        pairSum = pairSum + pair;
         w.pair[k] = pair;
         if (v.relocated != 0) w.pair[k] = pair / cells;
     }

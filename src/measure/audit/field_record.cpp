@@ -60,6 +60,7 @@ RecordAccess::RecordAccess(const FieldRecord& record, const LeftOut& out)
       selfShadowBias(record.settings.selfShadowBias),
       maskTexels(record.settings.masks ? record.settings.masks->factor() : 2),
       maskPacked(record.settings.masks && record.settings.masks->packed() ? 1 : 0),
+      blockers(int(blockersOf(record.settings.blockers.get()).size())),
       m_record(&record),
       m_out(&out) {}
 

@@ -7,6 +7,7 @@
 #include "kernels/lookup/irradiance.h"
 #include "probegi/field.h"
 #include "probegi/masks.h"
+#include "sdf/sdf_blockers.h"
 
 namespace probegi {
 
@@ -42,6 +43,7 @@ public:
     int guard;
     float selfShadowBias;
     int maskTexels, maskPacked;
+    int blockers;
 
     RecordAccess(const FieldRecord& record, const LeftOut& out);
     /// The same field with a light of 1 (before decoding) in some probes and none in the others: what it answers is
@@ -54,6 +56,9 @@ public:
     friend void countFallback(const RecordAccess&) {}
     friend int maskWord(const RecordAccess& a, int number) {
         return int(a.m_record->settings.masks->words()[std::size_t(number)]);
+    }
+    friend const kernels::SdfBlocker& blockerAt(const RecordAccess& a, int number) {
+        return blockersOf(a.m_record->settings.blockers.get())[std::size_t(number)];
     }
     friend glm::vec3 visibilityPoint(const RecordAccess&, glm::vec3 direction) { return direction; }
     friend glm::vec3 axisPoint(const RecordAccess&, const kernels::Volume& v, int axis, bool up) {

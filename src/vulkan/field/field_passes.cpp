@@ -136,10 +136,12 @@ void FieldPasses::writeQueryBindings(VkDescriptorSet set, std::uint32_t firstBin
 }
 
 FieldMemory FieldPasses::memory() const noexcept {
+    std::size_t earlier = 0;
+    for (const Buffer& buffer : m_earlier) earlier += buffer.bytes();
     return {m_irradiance.bytes(), m_visibility.bytes(),
             m_states.bytes() + m_tasks.bytes() + m_sides.bytes() + m_filters.bytes() + m_constants.bytes() +
                 m_directions.bytes() + m_surfaces.bytes() + m_bounds.bytes() + m_chosen.bytes() + m_events.bytes() +
-                m_limits.bytes() + m_progress.bytes() + m_masks.bytes(),
+                m_limits.bytes() + m_progress.bytes() + m_masks.bytes() + m_blockers.bytes() + earlier,
             m_irradianceWeights.bytes() + m_visibilityRays.bytes() + m_visibilityWeights.bytes() + m_hits.bytes() +
                 m_rayData.bytes() + m_fixedRays.bytes() + m_emitterLights.bytes() + m_steps.bytes() +
                 m_changes.bytes()};

@@ -75,6 +75,7 @@ public:
     void forgetRecorded() noexcept {
         m_recordedSettings.reset();
         m_recordedMasks.reset();
+        m_recordedBlockers.reset();
         m_recordedTasks.reset();
         m_recordedChoice.reset();
         m_listed = false;
@@ -110,6 +111,10 @@ private:
     kernels::VolumeBlending blending(const FieldSettings& settings) const;
     /// Writes the constants of the settings, and, if they are others than before, the masks. Throws before it records.
     void recordConstants(const Recorder& recorder, const FieldSettings& settings);
+    void recordMasks(const Recorder& recorder, const FieldSettings& settings);
+    void recordBlockers(const Recorder& recorder, const FieldSettings& settings);
+    /// Writes to a buffer that may still be read: ordered by barriers, or, where it is too small, to another one.
+    void replace(const Recorder& recorder, Buffer& buffer, const char* name, std::span<const std::byte> bytes);
     void writeSet();
     void makeRayBuffers(int looks);
     /// What an update with a budget needs besides.
@@ -146,6 +151,8 @@ private:
     Buffer m_surfaces, m_bounds, m_chosen;  // of recorded updates with relocation or states: kernels::PlacesPush
     Buffer m_directions;                    // vec3 per ray: those of the update, then the fixed ones
     Buffer m_masks;                         // Masks::words(); created by the first settings with LeakGuard::masks
+    Buffer m_blockers;                      // SdfBlocker of LeakGuard::sdfShadow
+    std::vector<Buffer> m_earlier;          // masks and primitives that were too small for those of today
     Buffer m_events;                        // EventRegion of the update
     Buffer m_limits;                        // EventLimit per probe; created by the first update that has any
     Buffer m_progress;                      // ProbeProgress per probe, for the host; the same
@@ -159,6 +166,7 @@ private:
     // Contents of the buffers once all recorded commands have run.
     std::optional<FieldSettings> m_recordedSettings;
     std::shared_ptr<const Masks> m_recordedMasks;
+    std::shared_ptr<const SdfBlockers> m_recordedBlockers;
     std::optional<std::uint32_t> m_recordedTasks;   // UpdateFrame::taskList
     std::optional<std::uint32_t> m_recordedChoice;  // PlacesFrame::chosenList
     kernels::RaySet m_rays{};                       // of the update after the last recorded one

@@ -10,11 +10,17 @@
 // Needs GLSL 4.60 and GL_EXT_scalar_block_layout. All names begin with probegi or PROBEGI, or are those of the kernels
 // included below. If PROBEGI_COUNT_FALLBACKS is defined, queries whose cage had too little weight are counted for
 // Field::fallbackQueries(); the shader stage then needs atomics on storage buffers. If PROBEGI_CONSTANTS_IN_BUFFER is
-// defined, the first binding is a storage buffer: QueryConstants::storageBuffer.
+// defined, the first binding is a storage buffer: QueryConstants::storageBuffer. If PROBEGI_MASKS is defined, look-ups
+// with LeakGuard::masks and sdfShadow read the field's masks and primitives, by their address
+// (GL_EXT_buffer_reference); without it they go by the distance moments instead.
 #ifndef PROBEGI_QUERY_GLSL
 #define PROBEGI_QUERY_GLSL
 
 #extension GL_EXT_scalar_block_layout : require
+#ifdef PROBEGI_MASKS
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+#endif
 
 #include "kernels/abi/field_constants.h"
 #include "kernels/lookup/access.h"
@@ -52,6 +58,15 @@ layout(set = PROBEGI_SET, binding = PROBEGI_BINDING + 3, scalar) PROBEGI_STATES_
     ProbeStatus at[];
 }
 probegiStates;
+
+#ifdef PROBEGI_MASKS
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ProbegiMaskWords {
+    int at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ProbegiBlockers {
+    SdfBlocker at[];
+};
+#endif
 
 // The volume that owns a slot.
 int probegiVolumeOf(int slot) {
@@ -110,6 +125,7 @@ struct Access {
     float selfShadowBias;
     int maskTexels;
     int maskPacked;
+    int blockers;
 };
 #define MapPoint vec2
 
@@ -120,6 +136,10 @@ Access probegiAccess() {
     access.selfShadowBias = probegiField.selfShadowBias;
     access.maskTexels = probegiField.maskTexels;
     access.maskPacked = probegiField.maskPacked;
+    access.blockers = probegiField.blockerCount;
+#ifndef PROBEGI_MASKS
+    if (access.guard == 3) access.guard = 1;  // rows of kernels/guards/list.h
+#endif
     return access;
 }
 vec2 visibilityPoint(Access access, vec3 direction) {
@@ -150,9 +170,17 @@ vec3 storedIrradiance(Access access, int slot, vec2 at) {
 }
 int maskWord(Access access, int number) {
 #ifdef PROBEGI_MASKS
-    return int(Uints(probegiField.masks).at[number]);
+    return ProbegiMaskWords(probegiField.masks).at[number];
 #else
-    return 0;  // an engine's fields have no masks
+    return 0;  // blind everywhere
+#endif
+}
+SdfBlocker blockerAt(Access access, int number) {
+#ifdef PROBEGI_MASKS
+    return ProbegiBlockers(probegiField.blockers).at[number];
+#else
+    SdfBlocker none;
+    return none;
 #endif
 }
 float givenVisibility(Access access, int corner) {

@@ -11,7 +11,7 @@ void evaluate(INOUT(Lane) lane) {
     const int axis = takeIndex(lane, 3);
     give(lane, component(axis, a), 0.0f);
     giveBits(lane, uint(componentOf(axis, 3, 5, 7)));
-    give(lane, noGuardPoint().scale, 0.0f);
+    give(lane, noGuardPoint().scale + noGuardPoint().seen[5], 0.0f);
     giveBits(lane, uint(noGuardPoint().low + noGuardPoint().high));
     giveVec3(lane, axisDirection(v, axis, a.x > 0.0f), 1e-5f);
 }

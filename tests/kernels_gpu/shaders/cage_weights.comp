@@ -35,6 +35,7 @@ void evaluate(INOUT(Lane) lane) {
     give(lane, w.weightSum, 2e-4f);
     weighPairs(access, v, cage, cageSlots(v, cage.base), w);
     give(lane, w.trust, 1e-3f);
+    giveVec3(lane, cornerPlace(access, v, cage, v.firstSlot + 1, 5), 1e-5f);
     give(lane, cellsBetween(access, v, v.firstSlot, v.firstSlot + 1, w.axis, w.up == 1), 1e-5f);
     give(lane, frontWeight(w, w.axis == 0, w.axis == 2, w.up == 1, 2), 1e-4f);
 }

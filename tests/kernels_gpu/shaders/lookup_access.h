@@ -12,6 +12,7 @@ struct Access {
     float selfShadowBias;
     int maskTexels;
     int maskPacked;
+    int blockers;
     float walls;  // share of backs of every third probe
 #ifdef __cplusplus
     using MapPoint = vec3;
@@ -28,6 +29,7 @@ KERNEL_FN Access accessTo(int rules, int guard, float walls) {
     access.selfShadowBias = 0.3f;
     access.maskTexels = 5;
     access.maskPacked = 0;
+    access.blockers = 6;
     access.walls = walls;
     return access;
 }
@@ -64,6 +66,17 @@ KERNEL_FN float givenVisibility(Access, int corner) {
 KERNEL_FN int maskWord(Access, int number) {
     if (number == 11) return 0x2a05;  // the probe in slot 5
     return number % 4 == 0 ? 0 : int((uint(number) * 0x9e3779b9u) >> 1u) & 0xf000f;
+}
+// Walls, posts and balls between the probes, one of each shape, of which two are turned.
+KERNEL_FN SdfBlocker blockerAt(Access, int number) {
+    SdfBlocker blocker;
+    blocker.solid.centre = vec3(0.3f * float(number), 0.17f * float(number), 0.9f - 0.23f * float(number));
+    blocker.solid.shape = number == 5 ? kSdfBox : uint(number);
+    blocker.solid.rotation = number == 2 || number == 5 ? vec4(0.6f, 0.0f, 0.0f, 0.8f) : vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    blocker.solid.halfSize = vec3(0.1f, 0.4f, 0.3f);
+    blocker.solid.rounding = 0.03f;
+    blocker.reach = vec3(0.55f);
+    return blocker;
 }
 KERNEL_FN void countFallback(Access) {}
 

@@ -18,7 +18,7 @@ void evaluate(INOUT(Lane) lane) {
     const GuardPoint point = maskPointAt(access, cube, texel);
     for (int cluster = 0; cluster < 8; ++cluster) give(lane, maskOf(point, cluster), 0.02f);
     const Cage cage = takeCage(lane, v);
-    const GuardPoint there = masksPoint(access, v, cage, cube);
+    const GuardPoint there = masksPoint(access, v, cage, cageSlots(v, cage.base));
     for (int cluster = 0; cluster < 8; ++cluster) give(lane, maskOf(there, cluster), 0.02f);
     giveBits(lane, uint(maskTexel(access, cube, 3)));
     give(lane, sideFactor(high, cube & 1), 1e-6f);
@@ -31,13 +31,13 @@ void evaluate(INOUT(Lane) lane) {
     give(lane, onItsSide(high * 0.3f, 0.4f, high + 0.5f), 0.0f);
     give(lane, onItsSide(0.9f, 0.1f * high, high), 0.0f);
     give(lane, onItsSide(high, 0.0f, 0.01f), 0.0f);
-    GuardPoint some;
+    GuardPoint some = noGuardPoint();
     some.low = 0x10203040;
     some.high = 0x01700078;
     some.scale = 0.01f;
-    give(lane, masksSeen(access, v, 5, fromProbe, some), 1e-6f);
-    give(lane, masksSeen(access, v, 5, fromProbe, noGuardPoint()), 5e-4f);
-    give(lane, masksBetween(access, v, 5, 3, axisPoint(access, v, 1, true), 1.0f), 0.0f);
+    give(lane, masksSeen(access, v, 5, 1, fromProbe, some), 1e-6f);
+    give(lane, masksSeen(access, v, 5, 1, fromProbe, noGuardPoint()), 5e-4f);
+    give(lane, masksBetween(access, v, 5, 3, axisPoint(access, v, 1, true), 1.0f, fromProbe), 0.0f);
     if (abs(length(fromProbe) * v.inverseMaxDistance - 1.0f) < 1e-3f)
         give(lane, 0.0f, 0.0f);
     else

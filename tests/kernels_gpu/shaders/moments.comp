@@ -14,9 +14,9 @@ void evaluate(INOUT(Lane) lane) {
     const float distance = takeBetween(lane, 0.0f, 2.0f);
     give(lane, neighbourVisibility(mean, mean * mean + 0.01f + variance, distance), 2e-4f);
     const Cage cage = takeCage(lane, v);
-    give(lane, momentsPoint(access, v, cage, 5).scale, 0.0f);
-    give(lane, momentsSeen(access, v, 5, fromProbe, noGuardPoint()), 5e-4f);
-    give(lane, momentsBetween(access, v, 5, 3, axisPoint(access, v, 1, true), distance), 5e-4f);
+    give(lane, momentsPoint(access, v, cage, cageSlots(v, cage.base)).scale, 0.0f);
+    give(lane, momentsSeen(access, v, 5, 0, fromProbe, noGuardPoint()), 5e-4f);
+    give(lane, momentsBetween(access, v, 5, 3, axisPoint(access, v, 1, true), distance, fromProbe), 5e-4f);
     // The result is discontinuous at the farthest distance.
     if (abs(length(fromProbe) * v.inverseMaxDistance - 1.0f) < 1e-3f)
         give(lane, 0.0f, 0.0f);

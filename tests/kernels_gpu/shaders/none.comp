@@ -10,8 +10,8 @@ void evaluate(INOUT(Lane) lane) {
     const Access access = accessTo(takeIndex(lane, 2), 0, 0.0f);
     const vec3 fromProbe = takeVector(lane, -3.0f, 3.0f);
     const Cage cage = takeCage(lane, v);
-    give(lane, nonePoint(access, v, cage, 3).scale, 0.0f);
-    give(lane, noneSeen(access, v, 3, fromProbe, noGuardPoint()), 0.0f);
-    give(lane, noneBetween(access, v, 3, 1, fromProbe, 1.0f), 0.0f);
+    give(lane, nonePoint(access, v, cage, cageSlots(v, cage.base)).scale, 0.0f);
+    give(lane, noneSeen(access, v, 3, 0, fromProbe, noGuardPoint()), 0.0f);
+    give(lane, noneBetween(access, v, 3, 1, fromProbe, 1.0f, fromProbe), 0.0f);
     give(lane, noneFar(access, v, 3, fromProbe), 0.0f);
 }

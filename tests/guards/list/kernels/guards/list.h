@@ -6,13 +6,15 @@
 #include "kernels/guards/none.h"
 #include "kernels/guards/toy.h"
 
-// Asks the moments where it knows nothing.
+// These ask the moments where they know nothing.
 #include "kernels/guards/masks.h"
+#include "kernels/guards/sdf_shadow.h"
 
-#define PROBEGI_GUARDS(GUARD)                                       \
-    GUARD(0, nonePoint, noneSeen, noneBetween, noneFar)             \
-    GUARD(1, momentsPoint, momentsSeen, momentsBetween, momentsFar) \
-    GUARD(2, masksPoint, masksSeen, masksBetween, masksFar)         \
-    GUARD(3, toyPoint, toySeen, toyBetween, toyFar)
+#define PROBEGI_GUARDS(GUARD)                                               \
+    GUARD(0, nonePoint, noneSeen, noneBetween, noneFar)                     \
+    GUARD(1, momentsPoint, momentsSeen, momentsBetween, momentsFar)         \
+    GUARD(2, masksPoint, masksSeen, masksBetween, masksFar)                 \
+    GUARD(3, sdfShadowPoint, sdfShadowSeen, sdfShadowBetween, sdfShadowFar) \
+    GUARD(4, toyPoint, toySeen, toyBetween, toyFar)
 
 #endif

@@ -12,18 +12,18 @@ KERNEL_FN Real evenSlot(Int slot) {
 }
 
 // Whatever the point, so that this shows that the note reaches the other function.
-LOOKUP_FN GuardPoint toyPoint(IN(Access), IN(Volume), IN(Cage), Int) {
+LOOKUP_FN GuardPoint toyPoint(IN(Access), IN(Volume), IN(Cage), IN(CageSlots)) {
     GuardPoint point = noGuardPoint();
     point.high = Int(1);
     return point;
 }
 
-LOOKUP_FN Real toySeen(IN(Access), IN(Volume), Int slot, Real3, IN(GuardPoint) point) {
+LOOKUP_FN Real toySeen(IN(Access), IN(Volume), Int slot, int, Real3, IN(GuardPoint) point) {
     return evenSlot(slot + point.high + Int(1));
 }
 
 // Of two neighbours along x, one has an odd slot.
-LOOKUP_FN Real toyBetween(IN(Access), IN(Volume), Int, Int, OF_ACCESS(MapPoint), Real) {
+LOOKUP_FN Real toyBetween(IN(Access), IN(Volume), Int, Int, OF_ACCESS(MapPoint), Real, Real3) {
     return Real(0.0f);
 }
 
