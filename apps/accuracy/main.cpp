@@ -7,6 +7,7 @@
 #include "budget.h"
 #include "console/parse.h"
 #include "console/terminal.h"
+#include "contact.h"
 #include "events.h"
 #include "flight.h"
 #include "glossy.h"
@@ -245,6 +246,27 @@ Result<std::string> glossy(const Context& context, const Options& options) {
     return glossyTable(rows);
 }
 
+/// Contact light in scenes with nooks.
+Result<std::string> contact(const Context& context, const Options& options) {
+    std::vector<ContactRow> rows;
+    for (const char* name : {"sponza", "house", "atrium", "desk"}) {
+        if (!options.scene.empty() && options.scene != name) continue;
+        tool::SceneOptions scene;
+        scene.scene = "builtin:" + std::string(name);
+        for (const Case& entry : cases(options))
+            if (entry.name == name) scene = entry.options;
+        const auto setup = tool::loadSetup(scene);
+        if (!setup) {
+            rows.push_back({.scene = name, .run = {}, .missing = setup.error().message});
+            continue;
+        }
+        const auto measured = measureContact(context, name, *setup, options.samplesPerPixel);
+        if (!measured) return measured.error();
+        rows.insert(rows.end(), measured->begin(), measured->end());
+    }
+    return contactTable(rows);
+}
+
 Result<void> measure(const Options& options) {
     const auto context = tool::makeContext(options.threads);
     if (!context) return context.error();
@@ -282,6 +304,7 @@ Result<void> measure(const Options& options) {
                                       {"budget", budgets},
                                       {"flight", flights},
                                       {"glossy", glossy},
+                                      {"contact", contact},
                                       {"outside", outside}}) {
         if (!wanted(name)) continue;
         const auto made = table(*context, options);
@@ -307,11 +330,11 @@ int run(int argc, char** argv) {
     app.add_option(
            "--only", options.only,
            "print the tables of one scene, the leak, its sweep, the surfaces, placement, motion, budgets, events, "
-           "a flight, what is outside of volumes or glossy light, and write nothing")
+           "a flight, what is outside of volumes, glossy or contact light, and write nothing")
         ->type_name(
             "cornell|two-rooms|dark-room|sponza|leak|sweep|surfaces|placement|motion|budget|events|flight|outside|"
-            "glossy");
-    app.add_option("--scene", options.scene, "of placement, budget and glossy: this scene only");
+            "glossy|contact");
+    app.add_option("--scene", options.scene, "of placement, budget, glossy and contact: this scene only");
     app.add_flag("--leaky", options.leaky, "placement: without a visibility test");
     app.add_option("--scenes", options.scenesFolder, "folder of the real scenes (default: PROBEGI_SCENES)")
         ->capture_default_str();

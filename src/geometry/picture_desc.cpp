@@ -6,7 +6,8 @@ namespace probegi {
 
 namespace {
 constexpr int kMaxSide = 16384;
-}
+constexpr float kMostReach = 4;
+}  // namespace
 
 Result<void> validatePictureDesc(const PictureDesc& desc) {
     if (desc.width < 1 || desc.width > kMaxSide || desc.height < 1 || desc.height > kMaxSide)
@@ -18,6 +19,9 @@ Result<void> validatePictureDesc(const PictureDesc& desc) {
                     sentence("samplesPerAxis is ", desc.samplesPerAxis, "; it must be 1 to 8"));
     if (desc.glossy != Glossy::off && desc.glossy != Glossy::first && desc.glossy != Glossy::field)
         return fail(ErrorCode::invalidArgument, "glossy is none of the values of probegi::Glossy");
+    if (!(desc.contactReach > 0) || desc.contactReach > kMostReach)
+        return fail(ErrorCode::invalidArgument, sentence("contactReach is ", desc.contactReach,
+                                                         "; it must be more than 0 and at most ", kMostReach));
     return {};
 }
 

@@ -4,7 +4,7 @@
 
 namespace probegi {
 
-/// Checks size and supersampling. Errors: invalidArgument.
+/// Checks all values. Errors: invalidArgument.
 Result<void> validatePictureDesc(const PictureDesc& desc);
 
 /// All layers in this size, black.

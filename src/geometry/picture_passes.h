@@ -24,7 +24,12 @@ enum class PicturePass : std::uint8_t {
     glossyBlur,    ///< from neighbours
     glossySpread,  ///< from blocks farther away
     glossyShade,   ///< from the blocks to the samples
-    accumulate,    ///< samples are added to the layers of their pixels; the last of a pixel makes means of them
+    // PictureDesc::contact.
+    contactSearch,   ///< what near surfaces send and block
+    contactBlur,     ///< with that of neighbours
+    contactHistory,  ///< and of the picture before
+    contactShade,    ///< from there to the samples
+    accumulate,      ///< samples are added to the layers of their pixels; the last of a pixel makes means of them
 };
 
 struct PassInfo {
@@ -33,7 +38,8 @@ struct PassInfo {
     double PictureTimes::*time;  ///< where its time counts; null: in the total only
     /// Reads other pixels' samples: a screen pass. What it reads of them it must not write, for they may be at work.
     bool neighbours;
-    bool glossy = false;  ///< only with PictureDesc::glossy
+    bool glossy = false;   ///< only with PictureDesc::glossy
+    bool contact = false;  ///< only with PictureDesc::contact
 };
 
 /// The passes in their order, on every backend.
@@ -57,11 +63,15 @@ inline constexpr std::array kPicturePasses{
     PassInfo{PicturePass::glossyBlur, "glossy blur", &PictureTimes::glossy, true, true},
     PassInfo{PicturePass::glossySpread, "glossy spread", &PictureTimes::glossy, true, true},
     PassInfo{PicturePass::glossyShade, "glossy shade", &PictureTimes::glossy, true, true},
+    PassInfo{PicturePass::contactSearch, "contact search", &PictureTimes::contact, true, false, true},
+    PassInfo{PicturePass::contactBlur, "contact blur", &PictureTimes::contact, true, false, true},
+    PassInfo{PicturePass::contactHistory, "contact history", &PictureTimes::contact, true, false, true},
+    PassInfo{PicturePass::contactShade, "contact shade", &PictureTimes::contact, false, false, true},
     // Screen passes go here.
     PassInfo{PicturePass::accumulate, "accumulate", nullptr, false},
 };
 
-/// 3840 x 2160 fit, 839 MB of samples, and 386 MB more with glossy light.
+/// 3840 x 2160 fit, 839 MB of samples, 386 MB more with glossy light, and 369 MB more with contact light.
 inline constexpr std::size_t kFramePixels = std::size_t(1) << 23;
 
 /// Rows of a frame of at most `framePixels`, one at least. Bands have so many, but for the last.
@@ -72,6 +82,17 @@ inline int frameRows(const PictureDesc& desc, std::size_t framePixels) {
 /// Whether a picture has the passes of PictureDesc::glossy.
 inline bool hasGlossy(const PictureDesc& desc) {
     return desc.glossy != Glossy::off && !desc.diffuseOnly;
+}
+
+/// Whether a picture goes on from PictureDesc::contactHistory.
+inline bool keepsContact(const PictureDesc& desc) {
+    return desc.contact && desc.contactHistory && std::size_t(desc.width) * std::size_t(desc.height) <= kFramePixels;
+}
+
+/// Whether a picture has a pass.
+inline bool hasPass(const PassInfo& info, const PictureDesc& desc) {
+    if (info.pass == PicturePass::contactHistory && !keepsContact(desc)) return false;
+    return (!info.glossy || hasGlossy(desc)) && (!info.contact || desc.contact);
 }
 
 /// Planes of a picture: sub-samples of a pixel.

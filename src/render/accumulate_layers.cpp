@@ -13,7 +13,9 @@ kernels::PixelLayers load(const Picture& picture, std::size_t pixel) {
             picture.albedo.pixels[pixel],
             picture.normal.pixels[pixel],
             picture.glossy.pixels.empty() ? glm::vec3(0.0f) : picture.glossy.pixels[pixel],
-            picture.depth.pixels[pixel].x};
+            picture.contact.pixels.empty() ? glm::vec3(0.0f) : picture.contact.pixels[pixel],
+            picture.depth.pixels[pixel].x,
+            picture.openness.pixels.empty() ? 0.0f : picture.openness.pixels[pixel].x};
 }
 
 void store(const kernels::PixelLayers& layers, Picture& picture, std::size_t pixel) {
@@ -25,6 +27,9 @@ void store(const kernels::PixelLayers& layers, Picture& picture, std::size_t pix
     picture.normal.pixels[pixel] = layers.normal;
     picture.depth.pixels[pixel] = glm::vec3(layers.depth);
     if (!picture.glossy.pixels.empty()) picture.glossy.pixels[pixel] = layers.glossy;
+    if (picture.contact.pixels.empty()) return;
+    picture.contact.pixels[pixel] = layers.contact;
+    picture.openness.pixels[pixel] = glm::vec3(layers.openness);
 }
 
 // `glossy`: light of the glossy lobe; null: the picture has none.
@@ -49,8 +54,12 @@ Result<void> accumulateLayers(PictureTask& task, const PixelRect& part, Frame& f
     forEachPixel(part, [&](int x, int y) {
         const std::size_t pixel = std::size_t(y) * std::size_t(task.desc.width) + std::size_t(x);
         kernels::PixelLayers sums = frame.firstPlane() == 0 ? kernels::emptyLayers() : load(task.layers, pixel);
-        for (int plane = frame.firstPlane(); plane < frame.endPlane(); ++plane)
-            add(frame.at(x, y, plane), frame.glossy ? &frame.glossy->lobe(x, y) : nullptr, sums);
+        for (int plane = frame.firstPlane(); plane < frame.endPlane(); ++plane) {
+            const ScreenSample& sample = frame.at(x, y, plane);
+            add(sample, frame.glossy ? &frame.glossy->lobe(x, y) : nullptr, sums);
+            if (frame.contact && sample.kind != kSampleSky)
+                kernels::addContactLayers(sums, frame.contact->found(x, y).light, frame.contact->kept(x, y).w);
+        }
         store(frame.endPlane() == planes ? kernels::meanLayers(sums, planes) : sums, task.layers, pixel);
     });
     return {};

@@ -15,6 +15,7 @@ struct PixelRect {
     std::size_t pixels() const noexcept { return std::size_t(width) * std::size_t(height); }
 };
 
+class ContactFrame;
 class GlossyFrame;
 
 /// The G-buffer of a rectangle of a picture: one plane of samples, one a pixel, row-major; or several planes, those of
@@ -23,6 +24,8 @@ class Frame {
 public:
     /// Of a picture with PictureDesc::glossy, as large as this; else null.
     GlossyFrame* glossy = nullptr;
+    /// Of a picture with PictureDesc::contact, the same.
+    ContactFrame* contact = nullptr;
 
     /// The frame is now there. Samples are not initialised: the first pass writes all, on the threads that use them
     /// next.

@@ -2,8 +2,10 @@
 
 #include <vector>
 
+#include "geometry/contact_store.h"
 #include "geometry/picture_passes.h"
 #include "kernels/screen/pinhole.h"
+#include "render/contact_frame.h"
 #include "render/glossy_frame.h"
 
 namespace probegi {
@@ -20,8 +22,15 @@ struct PictureInputs {
 struct PictureTask : PictureInputs {
     explicit PictureTask(const PictureInputs& inputs);
 
+    /// Once the picture is complete: what the next one must know of it.
+    void remember();
+
     kernels::PinholeCamera camera;
-    float sceneMagnitude;  // sceneMagnitude(tracer.bounds())
+    float sceneMagnitude;                         // sceneMagnitude(tracer.bounds())
+    float contactReach;                           // metres
+    int contactRound = 0;                         // of the first plane's noise
+    const ContactHistory::Impl* past = nullptr;   // null: none, or of another size
+    std::vector<kernels::ContactRecord> records;  // row-major; empty: nobody asks
     Picture layers;
 };
 
@@ -48,6 +57,10 @@ Result<void> collectGlossy(PictureTask& task, const PixelRect& part, Frame& fram
 Result<void> blurGlossy(PictureTask& task, const PixelRect& part, Frame& frame);
 Result<void> spreadGlossy(PictureTask& task, const PixelRect& part, Frame& frame);
 Result<void> shadeGlossy(PictureTask& task, const PixelRect& part, Frame& frame);
+Result<void> searchContact(PictureTask& task, const PixelRect& part, Frame& frame);
+Result<void> blurContact(PictureTask& task, const PixelRect& part, Frame& frame);
+Result<void> keepContact(PictureTask& task, const PixelRect& part, Frame& frame);
+Result<void> shadeContact(PictureTask& task, const PixelRect& part, Frame& frame);
 Result<void> accumulateLayers(PictureTask& task, const PixelRect& part, Frame& frame);
 
 constexpr PassFunction passFunction(PicturePass pass) {
@@ -74,6 +87,14 @@ constexpr PassFunction passFunction(PicturePass pass) {
             return spreadGlossy;
         case PicturePass::glossyShade:
             return shadeGlossy;
+        case PicturePass::contactSearch:
+            return searchContact;
+        case PicturePass::contactBlur:
+            return blurContact;
+        case PicturePass::contactHistory:
+            return keepContact;
+        case PicturePass::contactShade:
+            return shadeContact;
         case PicturePass::accumulate:
             return accumulateLayers;
     }

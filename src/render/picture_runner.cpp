@@ -93,11 +93,14 @@ Result<void> PictureRunner::runFrames(std::size_t framePixels) {
     const int rows = frameRows(m_task.desc, framePixels);
     Frame frame;
     GlossyFrame glossy;
+    ContactFrame contact;
     if (hasGlossy(m_task.desc)) frame.glossy = &glossy;
+    if (m_task.desc.contact) frame.contact = &contact;
     for (int y = 0; y < height; y += rows)
         for (int plane = 0; plane < m_planes; ++plane) {
             frame.place({0, y, width, std::min(rows, height - y)}, plane, 1);
             if (frame.glossy) glossy.place(frame.rect());
+            if (frame.contact) contact.place(frame.rect(), keepsContact(m_task.desc));
             if (auto done = runFrame(frame); !done) return done;
         }
     return {};
@@ -153,6 +156,7 @@ Result<RenderedPicture> runPicture(const Context& context, const PictureInputs& 
     PictureRunner runner(context, task, passes);
     const bool wholeFrames = std::ranges::any_of(passes, &FramePass::neighbours);
     if (auto done = wholeFrames ? runner.runFrames(framePixels) : runner.runPartByPart(); !done) return done.error();
+    task.remember();
     PictureTimes times = runner.times();
     times.total = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     return RenderedPicture{std::move(task.layers), times};

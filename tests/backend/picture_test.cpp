@@ -144,6 +144,53 @@ TEST_P(BackendPicture, glossyLightIsTheCpus) {
     }
 }
 
+// Contact light with and without a field, with sub-samples and with glossy light.
+TEST_P(BackendPicture, contactLightIsTheCpus) {
+    const Scene scene = *makeBuiltinScene("desk");
+    const PlacedCamera camera = poseAt(scene).cameras.at(0);
+    for (const auto& [glossy, frames, samples] :
+         {std::tuple{Glossy::off, 3, 1}, {Glossy::off, 3, 2}, {Glossy::first, 3, 1}, {Glossy::off, 0, 1}}) {
+        const PictureDesc desc{
+            .camera = camera, .width = 91, .height = 51, .samplesPerAxis = samples, .glossy = glossy, .contact = true};
+        const Taken taken = take(scene, {.counts = {5, 5, 5}}, frames, desc);
+        for (const auto& layer : {&Picture::color, &Picture::irradiance, &Picture::contact, &Picture::openness}) {
+            const LayerDifference d = compareLayer(taken.own.*layer, taken.reference.*layer);
+            EXPECT_LT(d.mean, 2e-3) << samples << ' ' << frames << ": maximum " << d.worst;
+            EXPECT_LT(d.share, 0.01) << samples << ' ' << frames << ": maximum " << d.worst;
+            RecordProperty(
+                "contactMean" + std::to_string(samples) + std::to_string(int(glossy)) + std::to_string(frames),
+                std::to_string(d.mean) + " " + std::to_string(d.share));
+        }
+    }
+}
+
+// From picture to picture, with a camera that moves.
+TEST_P(BackendPicture, contactHistoryIsTheCpus) {
+    const Scene scene = *makeBuiltinScene("desk");
+    const ScenePose pose = poseAt(scene);
+    const Lighting lighting{pose.lights, scene.sky};
+    PictureDesc desc{.camera = pose.cameras.at(0), .width = 91, .height = 51, .samplesPerAxis = 1, .contact = true};
+    const auto last = [&](const BackendMaker& backend) {
+        const auto tracer = made(backend.makeTracer(context, scene, pose));
+        ContactHistory history;
+        desc.contactHistory = &history;
+        Picture picture;
+        for (int i = 0; i < 4; ++i) {
+            desc.camera.position.x = pose.cameras.at(0).position.x + 0.01f * float(i);
+            picture = made(backend.renderPicture(context, *tracer, lighting, nullptr, desc)).picture;
+        }
+        return picture;
+    };
+    const Picture own = last(GetParam()), reference = last(kCpu);
+    desc.contactHistory = nullptr;
+    const auto tracer = made(kCpu.makeTracer(context, scene, pose));
+    const Picture alone = made(kCpu.renderPicture(context, *tracer, lighting, nullptr, desc)).picture;
+    const double d = compareLayer(own.openness, reference.openness).mean;
+    EXPECT_LT(d, 2e-3);
+    RecordProperty("historyMean", std::to_string(d));
+    EXPECT_GT(compareLayer(alone.openness, reference.openness).mean, 5 * d);
+}
+
 TEST_P(BackendPicture, colorIsDirectPlusIndirectOnSurfacesAndSkyElsewhere) {
     const Picture p = take(2, {.camera = richCamera(), .width = 64, .height = 48, .samplesPerAxis = 1}).own;
     for (std::size_t i = 0; i < p.color.pixels.size(); ++i) {

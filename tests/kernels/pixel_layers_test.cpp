@@ -36,6 +36,16 @@ TEST(PixelLayers, glossyLightIsPartOfTheIndirect) {
     EXPECT_EQ(means.depth, 4.0f);
 }
 
+TEST(PixelLayers, contactLightIsBesideTheRest) {
+    PixelLayers sums = emptyLayers();
+    addContactLayers(sums, {1, 2, 4}, 0.25f);
+    addSky(sums, vec3(2));
+    const PixelLayers means = meanLayers(sums, 2);
+    EXPECT_EQ(means.contact, vec3(0.5f, 1, 2));
+    EXPECT_EQ(means.openness, 0.375f);
+    EXPECT_EQ(means.indirect, vec3(0.0f));
+}
+
 TEST(PixelLayers, skyIsInTheColourAlone) {
     PixelLayers sums = emptyLayers();
     addSky(sums, {1, 2, 3});

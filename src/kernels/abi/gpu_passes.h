@@ -235,6 +235,20 @@ KERNEL_CONST int kSideFront = 0;
 KERNEL_CONST int kSideBack = 1;
 KERNEL_CONST int kSideBackface = 2;
 
+// What the passes of PictureDesc::contact read and write, a value a pixel (picture_contact_*.comp).
+struct ContactBlock {
+    uvec2 found;           // ContactFound[pixel of the frame]
+    uvec2 blurred;         // vec4[pixel of the frame]
+    uvec2 kept;            // the same, with the history; without one the same buffer
+    uvec2 past;            // ContactRecord[pixel of the picture] of the picture before; 0: none
+    uvec2 records;         // the same of this picture
+    PinholeCamera camera;  // of `past`
+    float reach;           // metres
+    int round;             // of the first plane's noise
+    int rows;              // of the picture
+    int limited;           // 1: contactShare() counts, since there is a field
+};
+
 // Samples of a frame of a picture, those of one pixel side by side (picture_*.comp).
 struct PicturePush {
     uvec2 samples;   // ScreenSample[row][column][plane]
@@ -251,10 +265,12 @@ struct PicturePush {
     int flags;         // kPictureDiffuseOnly ...
     // ScreenSample[block], what glossy rays hit; GlossySample[block]; vec3[pixel], the light of the glossy lobes
     uvec2 glossy;
+    uvec2 contact;  // ContactBlock
 };
 KERNEL_CONST int kPictureDiffuseOnly = 1;
 KERNEL_CONST int kPictureGlossy = 2;        // passes of PictureDesc::glossy
 KERNEL_CONST int kPictureSecondGlossy = 4;  // Glossy::field
+KERNEL_CONST int kPictureContact = 8;       // passes of PictureDesc::contact
 
 // Linear values to 8-bit sRGB (tone_map.comp).
 struct ToneMapPush {
@@ -275,7 +291,8 @@ static_assert(offsetof(SceneConstants, tracer) == 140 && sizeof(SceneConstants) 
 static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(BlendPush) == 116 &&
               sizeof(EnterPush) == 40 && sizeof(PlacementsPush) == 28 && sizeof(PlacesPush) == 96 &&
               sizeof(TracePush) == 76);
-static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 112);
+static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 120 &&
+              sizeof(ContactBlock) == 104);
 static_assert(sizeof(TasksPush) == 24 && sizeof(FilterPush) == 84 && sizeof(EventPush) == 56 &&
               sizeof(EventRegion) == 32 && sizeof(GpuProbeStep) == 84);
 static_assert(sizeof(ToneMapPush) == 36 && sizeof(GpuSurface) == 76);

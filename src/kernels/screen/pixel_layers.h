@@ -15,14 +15,16 @@ struct PixelLayers {
     vec3 albedo;
     vec3 normal;
     vec3 glossy;
+    vec3 contact;
     float depth;
+    float openness;
 };
 
 KERNEL_FN PixelLayers emptyLayers() {
     PixelLayers layers;
     layers.color = layers.direct = layers.indirect = vec3(0.0f);
-    layers.irradiance = layers.albedo = layers.normal = layers.glossy = vec3(0.0f);
-    layers.depth = 0.0f;
+    layers.irradiance = layers.albedo = layers.normal = layers.glossy = layers.contact = vec3(0.0f);
+    layers.depth = layers.openness = 0.0f;
     return layers;
 }
 
@@ -53,6 +55,12 @@ KERNEL_FN void addGlossySurface(INOUT(PixelLayers) sums, vec3 direct, vec3 irrad
     sums.depth += distance;
 }
 
+// What contact light found at a surface: E in W m^-2, and the share of E's directions that it takes.
+KERNEL_FN void addContactLayers(INOUT(PixelLayers) sums, vec3 irradiance, float taken) {
+    sums.contact += irradiance;
+    sums.openness += 1.0f - taken;
+}
+
 KERNEL_FN PixelLayers meanLayers(IN(PixelLayers) sums, int samples) {
     const float weight = 1.0f / float(samples);
     PixelLayers means;
@@ -63,6 +71,8 @@ KERNEL_FN PixelLayers meanLayers(IN(PixelLayers) sums, int samples) {
     means.albedo = weight * sums.albedo;
     means.normal = weight * sums.normal;
     means.glossy = weight * sums.glossy;
+    means.contact = weight * sums.contact;
+    means.openness = weight * sums.openness;
     means.depth = weight * sums.depth;
     return means;
 }

@@ -13,6 +13,7 @@ Result<Scene> makeDarkRoom(const BuiltinParams& params);
 Result<Scene> makeDoor(const BuiltinParams& params);
 Result<Scene> makeMoving(const BuiltinParams& params);
 Result<Scene> makeMirrors(const BuiltinParams& params);
+Result<Scene> makeDesk(const BuiltinParams& params);
 Result<Scene> makeHouse(const BuiltinParams& params);
 Result<Scene> makeTerrain(const BuiltinParams& params);
 Result<Scene> makeAtrium(const BuiltinParams& params);

@@ -33,6 +33,8 @@ constexpr std::array kEntries{
     Entry{{"moving", "a closed room in which a lamp, a box and a camera move for four seconds"}, builtin::makeMoving},
     Entry{{"mirrors", "a robot between two mirrors that face each other, and metal balls from polished to rough"},
           builtin::makeMirrors},
+    Entry{{"desk", "a cluttered desk by a window, with a lamp: nooks smaller than the cells of its grid"},
+          builtin::makeDesk},
     Entry{{"furnace", "a closed glowing box with a known answer everywhere (albedo, emission)"}, builtin::makeFurnace},
     Entry{{"sphere", "an integrating sphere around a point light, with a known answer (albedo, power, radius)"},
           builtin::makeSphere},

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <vector>
 
 #include "core/progress.h"
 #include "geometry/picture_desc.h"
 #include "kernels/abi/gpu_passes.h"
 #include "vulkan/field/vulkan_field.h"
+#include "vulkan/picture/gpu_contact.h"
 
 namespace probegi::vulkan {
 
@@ -14,7 +16,7 @@ namespace {
 
 // Without neighbours: a band of rows, with all planes.
 constexpr std::size_t kSamplesPerBand = std::size_t(1) << 20;
-constexpr std::size_t kLayers = 7;  // of every picture; then `glossy`
+constexpr std::size_t kLayers = 7;  // of every picture; then `glossy`, and `contact` and `openness`
 
 template <class Wanted, class Given>
 const Wanted& onDevice(const Device& device, const Given& given, const char* what) {
@@ -49,6 +51,10 @@ public:
         m_push.samplesPerAxis = desc.samplesPerAxis;
         m_push.flags = desc.diffuseOnly ? kernels::kPictureDiffuseOnly : 0;
         if (hasGlossy(desc)) placeGlossy();
+        if (desc.contact) {
+            m_contact.emplace(picture, m_bandRows, m_push.camera);
+            m_push.flags |= kernels::kPictureContact;
+        }
     }
 
     int bands() const { return (m_picture.desc.height + m_bandRows - 1) / m_bandRows; }
@@ -62,12 +68,20 @@ public:
         const std::size_t pixels = std::size_t(m_push.rows) * std::size_t(m_push.width);
         m_push.sampleCount = std::uint32_t(pixels) * std::uint32_t(m_push.planes);
         const std::size_t bytes = layerCount() * pixels * sizeof(glm::vec3);
-        if (frame == 0) m_exchange.begin(0, bytes);
+        if (frame == 0) {
+            m_exchange.begin(m_contact ? sizeof(kernels::ContactBlock) : 0, bytes);
+            if (m_contact) m_push.contact = packAddress(m_exchange.add(std::span(&m_contact->block(), 1)));
+        }
         m_push.layers = packAddress(m_exchange.out());
         const bool last = frame + 1 == frames();
         m_exchange.run([&](const Recorder& recorder) { record(recorder); }, last ? bytes : 0);
         if (last) store(layers, pixels);
         addTimes();
+    }
+
+    /// After all bands.
+    void finish() {
+        if (m_contact) m_contact->remember();
     }
 
     const PictureTimes& times() const noexcept { return m_times; }
@@ -82,7 +96,7 @@ private:
         m_push.flags |= kernels::kPictureGlossy;
         if (m_picture.desc.glossy == Glossy::field) m_push.flags |= kernels::kPictureSecondGlossy;
     }
-    std::size_t layerCount() const { return kLayers + (m_glossy ? 1 : 0); }
+    std::size_t layerCount() const { return kLayers + (m_glossy ? 1 : 0) + (m_contact ? 2 : 0); }
 
     void record(const Recorder& recorder) {
         m_profiler->recordReset(recorder.commands());
@@ -102,8 +116,10 @@ private:
     }
 
     void store(Picture& picture, std::size_t pixels) const {
-        HdrImage* layers[] = {&picture.color,  &picture.direct, &picture.indirect, &picture.irradiance,
-                              &picture.albedo, &picture.normal, &picture.depth,    &picture.glossy};
+        std::vector<HdrImage*> layers{&picture.color,  &picture.direct, &picture.indirect, &picture.irradiance,
+                                      &picture.albedo, &picture.normal, &picture.depth};
+        if (m_glossy) layers.push_back(&picture.glossy);
+        if (m_contact) layers.insert(layers.end(), {&picture.contact, &picture.openness});
         const auto results = m_exchange.results<glm::vec3>();
         const std::ptrdiff_t first = std::ptrdiff_t(m_push.firstRow) * m_push.width;
         for (std::size_t layer = 0; layer < layerCount(); ++layer)
@@ -117,6 +133,7 @@ private:
     std::optional<Profiler> m_profiler;
     int m_bandRows = 1;
     Buffer m_samples, m_glossy;
+    std::optional<GpuContact> m_contact;
     kernels::PicturePush m_push{};
     PictureTimes m_times;
 };
@@ -135,6 +152,8 @@ RenderedPicture runPicture(const Context& context, const GpuPicture& picture, st
                            std::size_t framePixels) {
     RenderedPicture rendered{emptyPicture(picture.desc.width, picture.desc.height), {}};
     if (hasGlossy(picture.desc)) rendered.picture.glossy = HdrImage(picture.desc.width, picture.desc.height);
+    if (picture.desc.contact)
+        rendered.picture.contact = rendered.picture.openness = HdrImage(picture.desc.width, picture.desc.height);
     PictureRunner runner(picture, passes, framePixels);
     Progress progress(context, "rendering", double(runner.bands()) * runner.frames());
     for (int band = 0; band < runner.bands(); ++band)
@@ -142,6 +161,7 @@ RenderedPicture runPicture(const Context& context, const GpuPicture& picture, st
             runner.render(band, frame, rendered.picture);
             if (!progress.advance()) throw Failure(ErrorCode::cancelled, "rendering was cancelled");
         }
+    runner.finish();
     rendered.times = runner.times();
     return rendered;
 }
@@ -154,8 +174,9 @@ Result<RenderedPicture> renderPicture(const Context& context, const Device& devi
         const GpuTracer& gpuTracer = onDevice<GpuTracer>(device, tracer, "tracer");
         const GpuLighting lights = uploadedLighting(device, lighting);
         FieldPasses* volume = field ? &onDevice<VulkanField>(device, backendOf(*field), "field").passes() : nullptr;
-        RenderedPicture rendered = runPicture(context, {device, gpuTracer.scene(), lights, field, volume, desc},
-                                              gpuPasses({gpuTracer.scene(), volume}, desc));
+        RenderedPicture rendered =
+            runPicture(context, {device, gpuTracer.scene(), lights, field, volume, desc, tracer.bounds()},
+                       gpuPasses({gpuTracer.scene(), volume}, desc));
         rendered.times.total =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return rendered;

@@ -14,6 +14,7 @@ struct GpuPicture {
     const Field* field;   ///< may be null
     FieldPasses* volume;  ///< of the field
     const PictureDesc& desc;
+    Bounds bounds{};  ///< of the scene; for contact light without a field
 };
 
 /// Takes a picture through a list of passes, in frames as kPicturePasses says; a frame of passes with neighbours has at

@@ -77,6 +77,18 @@ GpuPass gpuPass(const PassInfo& info, const SceneObjects& objects) {
         case PicturePass::glossyShade:
             pass.shader = "picture_glossy_shade";
             break;
+        case PicturePass::contactSearch:
+            pass.shader = "picture_contact_search";
+            break;
+        case PicturePass::contactBlur:
+            pass.shader = "picture_contact_blur";
+            break;
+        case PicturePass::contactHistory:
+            pass.shader = "picture_contact_history";
+            break;
+        case PicturePass::contactShade:
+            pass.shader = "picture_contact_shade";
+            break;
         case PicturePass::accumulate:
             pass.shader = "picture_accumulate";
             pass.perPixel = true;
@@ -88,7 +100,7 @@ GpuPass gpuPass(const PassInfo& info, const SceneObjects& objects) {
 std::vector<GpuPass> gpuPasses(const SceneObjects& objects, const PictureDesc& desc) {
     std::vector<GpuPass> passes;
     for (const PassInfo& info : kPicturePasses)
-        if (!info.glossy || hasGlossy(desc)) passes.push_back(gpuPass(info, objects));
+        if (hasPass(info, desc)) passes.push_back(gpuPass(info, objects));
     return passes;
 }
 

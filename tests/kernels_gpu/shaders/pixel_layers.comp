@@ -12,6 +12,7 @@ void evaluate(INOUT(Lane) lane) {
     addSky(sums, takeVector(lane, 0.0f, 10.0f));
     const vec3 glossy = takeVector(lane, 0.0f, 10.0f);
     addGlossySurface(sums, direct, irradiance, albedo, glossy, albedo, normal, 1.0f);
+    addContactLayers(sums, glossy, albedo.x);
     const PixelLayers means = meanLayers(sums, 3);
     giveVec3(lane, means.color, 1e-5f);
     giveVec3(lane, means.direct, 1e-6f);
@@ -21,4 +22,6 @@ void evaluate(INOUT(Lane) lane) {
     giveVec3(lane, means.normal, 1e-6f);
     giveVec3(lane, means.glossy, 1e-5f);
     give(lane, means.depth, 1e-6f);
+    giveVec3(lane, means.contact, 1e-5f);
+    give(lane, means.openness, 1e-6f);
 }
