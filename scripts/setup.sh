@@ -10,6 +10,7 @@ build_packages=(
     libembree-dev libtbb-dev        # ray tracing, threads
     libglm-dev libhwy-dev  # vectors, SIMD
     libtinygltf-dev libdraco-dev libstb-dev libopenexr-dev libpng-dev nlohmann-json3-dev  # files
+    libzstd-dev libxxhash-dev  # fields in files
     libturbojpeg0-dev libjpeg62-turbo-dev  # the first one's CMake package asks for files of the second
     libcli11-dev libfmt-dev
     libvulkan-dev glslc  # headers and shader compiler; the loader is opened at run time

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "probegi/context.h"
 #include "probegi/control.h"
@@ -39,6 +40,14 @@ struct ConvergeResult {
     /// Estimate of how far the light of the worst region still is from its limit, relative, 0 or more; infinite
     /// where there were too few updates to tell.
     float remaining = 0;
+};
+
+/// Where Field::converge stands after an update, to go on from later, in another process too (probegi/field_file.h
+/// keeps it). Empty: at the start.
+struct ConvergeState {
+    std::vector<std::uint32_t> words{};  ///< of the library's own
+
+    bool empty() const noexcept { return words.empty(); }
 };
 
 /// Bytes that a field holds.
@@ -90,6 +99,14 @@ public:
     /// and hysteresis are ignored. Errors: cancelled, invalidArgument, outOfMemory, and those of the tracer.
     Result<ConvergeResult> converge(const Tracer& tracer, const Lighting& lighting, float tolerance = 0.03f,
                                     int maxFrames = 256, const std::function<void(const UpdateTimes&)>& onUpdate = {});
+
+    /// The same in several goes. `state`, empty at first, follows every update, before `onUpdate` is called; keep it
+    /// with a snapshot of that moment. Once the snapshot is written back, converge() goes on from the state with the
+    /// same arguments as if it had never stopped, to the bit; from that of one that came to its end, it returns at
+    /// once. Errors: those above, and invalidArgument (a state of other probes, or not of this function).
+    Result<ConvergeResult> converge(const Tracer& tracer, const Lighting& lighting, ConvergeState& state,
+                                    float tolerance = 0.03f, int maxFrames = 256,
+                                    const std::function<void(const UpdateTimes&)>& onUpdate = {});
 
     /// Moves the window of a volume by whole cells along the volume's axes, any number of them, so that it follows a
     /// camera (section 7.3; cellsToCentre() says how far). Probes that stay inside keep all they know. Those that enter

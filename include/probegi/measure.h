@@ -190,6 +190,22 @@ PROBEGI_API Result<ProbeTruth> traceProbeTruth(const Tracer& tracer, const PathT
 /// Field over truth, probe by probe; the truth's grid must be the field's first volume as it stands. 1 is right.
 PROBEGI_API std::vector<double> probeRatios(const FieldSnapshot& snapshot, const ProbeTruth& truth);
 
+/// Light of one field's probes against that of another's with the same probes. A probe's light is the mean over all
+/// directions and channels of E; probes that either field does not use are left out.
+struct FieldDifference {
+    double mean = 0;           ///< light of all probes together, A over B: 1 is alike; 0 where B is black
+    double rms = 0;            ///< root of the mean squared difference of E over directions and channels, over B's mean
+    Percentiles ratio;         ///< of a probe's light, A over B, where B has a hundredth of its mean or more
+    double worst = 0;          ///< of those: the largest difference of a probe's light, over its light in B
+    int worstSlot = -1;        ///< of that probe; -1: there is none
+    int probes = 0;            ///< compared
+    bool equalMaps = false;    ///< irradiance and distances are the same, to the bit
+    bool equalStates = false;  ///< and what probes keep besides
+};
+
+/// Errors: invalidArgument (the snapshots are of other volumes or maps, or of some probes only), outOfMemory.
+PROBEGI_API Result<FieldDifference> compareFields(const FieldSnapshot& a, const FieldSnapshot& b);
+
 // ---- A field in motion
 
 /// How unsteady light is where nothing changes: temporal standard deviation over mean, point by point. Points with less

@@ -84,8 +84,9 @@ kernels::RaySet FieldControl::Impl::raySet(int number) const noexcept {
             .fixedCount = int(fixedDirections.size())};
 }
 
-void FieldControl::Impl::turnRays() noexcept {
-    const kernels::RaySet set = raySet(frame);
+void FieldControl::Impl::turnRaysAt(int number) noexcept {
+    rayFrame = number;
+    const kernels::RaySet set = raySet(number);
     for (int i = 0; i < set.count; ++i) directions[std::size_t(i)] = kernels::rayOfSet(set, i);
 }
 
@@ -237,7 +238,7 @@ Result<FieldControl::Impl::Placement> FieldControl::Impl::placedAt(std::vector<g
     for (std::size_t i = 0; i < cells.size(); ++i)
         if (auto ok = validateVolumePlace(sentence("volumes[", i, "]"), scrolledVolume(desc.volumes[i], cells[i])); !ok)
             return ok.error();
-    if (auto ok = validateMasks(desc, settings, cells); !ok) return ok.error();
+    if (auto ok = validateGuard(desc, settings, cells); !ok) return ok.error();
     Placement placed{std::move(cells), {}, now, schedule, {}, 0};
     placed.volumes = makeVolumes(desc, placed.scrolled);
     for (std::size_t i = 0; i < placed.volumes.size(); ++i)
@@ -376,7 +377,7 @@ Result<void> FieldControl::setMedia(std::span<const Bounds> bounds) {
 
 Result<void> FieldControl::setSettings(const FieldSettings& settings) {
     if (auto ok = validateFieldSettings(settings); !ok) return ok;
-    if (auto ok = validateMasks(m_impl->desc, settings, m_impl->scrolled); !ok) return ok;
+    if (auto ok = validateGuard(m_impl->desc, settings, m_impl->scrolled); !ok) return ok;
     m_impl->settings = settings;
     m_impl->chooseTasks();  // the camera may have moved
     return {};

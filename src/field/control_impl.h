@@ -31,6 +31,8 @@ struct FieldControl::Impl {
     void setAveraging(bool averaging);
     /// The directions of update `number`, in a few numbers.
     kernels::RaySet raySet(int number) const noexcept;
+    /// The coming update's rays are those of this frame's update.
+    void turnRaysAt(int number) noexcept;
     /// Ends the frame: after the update. Without `turn`, the coming update has the same rays again. `progress`:
     /// FieldBackend::progress(). With a budget the coming update has other tasks, or, without memory, the same.
     void advance(bool turn = true, std::span<const kernels::ProbeProgress> progress = {}) noexcept;
@@ -88,11 +90,12 @@ struct FieldControl::Impl {
     std::vector<glm::vec3> directions, fixedDirections;
     HysteresisSchedule events;
     int frame = 0;
-    int turns = 0;  // of the rays
+    int turns = 0;     // of the rays
+    int rayFrame = 0;  // whose rays the coming update has
     bool averaging = false;
 
 private:
-    void turnRays() noexcept;
+    void turnRays() noexcept { turnRaysAt(frame); }
     Result<void> watch(std::span<const Bounds> moving, std::span<const Bounds> media);
     Result<Placement> placedAt(std::vector<glm::ivec3> cells, const ProbeStates& now) const;
     /// The tasks of a coming update, and the number of their list.

@@ -48,28 +48,28 @@ Convergence::Convergence(const FieldDesc& desc, std::span<const kernels::Volume>
       m_maxUpdates(maxUpdates) {}
 
 FrameHysteresis Convergence::kept() const noexcept {
-    if (m_averaged > 0) {
-        const float n = float(m_averaged);
-        return {1.0f - 3.0f / (n + 2), 1.0f - 1.0f / (n + float(m_turned))};
+    if (m_now.averaged > 0) {
+        const float n = float(m_now.averaged);
+        return {1.0f - 3.0f / (n + 2), 1.0f - 1.0f / (n + float(m_now.turned))};
     }
-    if (m_updates < kTurnedUpdates) return {0.0f, 1.0f - 1.0f / float(m_updates + 1)};
-    return {float(-m_ahead), 1.0f};
+    if (m_now.updates < kTurnedUpdates) return {0.0f, 1.0f - 1.0f / float(m_now.updates + 1)};
+    return {float(-m_now.ahead), 1.0f};
 }
 
 // At least half of the updates are for the average.
 bool Convergence::lastBeforeAverage() const noexcept {
-    return 2 * (m_updates + 1) >= m_maxUpdates;
+    return 2 * (m_now.updates + 1) >= m_maxUpdates;
 }
 
 void Convergence::advance(std::span<const float> brightness, std::span<const float> backfaceShares) {
     const bool observed = observes(), last = lastBeforeAverage();
-    if (m_averaged == 0) m_turned = std::min(m_turned + 1, kTurnedUpdates);
-    ++m_updates;
+    if (m_now.averaged == 0) m_now.turned = std::min(m_now.turned + 1, kTurnedUpdates);
+    ++m_now.updates;
     if (observed) observe(brightness, backfaceShares);
-    if (m_averaged > 0)
-        ++m_averaged;
-    else if (m_followed || last)
-        m_averaged = 1;
+    if (m_now.averaged > 0)
+        ++m_now.averaged;
+    else if (m_now.followed || last)
+        m_now.averaged = 1;
 }
 
 void Convergence::observe(std::span<const float> brightness, std::span<const float> backfaceShares) {
@@ -77,12 +77,12 @@ void Convergence::observe(std::span<const float> brightness, std::span<const flo
         makeRegions(backfaceShares);
         if (m_regions.empty()) {
             // No probe counts: all stand in walls, or no surface uses one.
-            m_converged = true;
-            m_remaining = 0;
+            m_now.converged = true;
+            m_now.remaining = 0;
         }
     } else if (!m_regions.empty()) {
-        measureChanges(brightness, m_averaged > 0 ? kDim : kBlack);
-        m_averaged > 0 ? checkAverage() : followBounces();
+        measureChanges(brightness, m_now.averaged > 0 ? kDim : kBlack);
+        m_now.averaged > 0 ? checkAverage() : followBounces();
     }
     m_before = std::move(m_last);
     m_last.assign(brightness.begin(), brightness.end());
@@ -134,9 +134,9 @@ double Convergence::storageNoise(const Region& region) const noexcept {
 // Rate of two successive changes, each with storage noise `noise`.
 double Convergence::rateOf(double change, double earlier, double noise) const noexcept {
     const double known = 1 - kNoiseInRate * noise / std::max(std::abs(earlier), 1e-30);
-    if (known <= 0) return m_rate;
+    if (known <= 0) return m_now.rate;
     const double rate = std::clamp(change / earlier, 0.0, kMaxRate);
-    return rate <= known ? rate : std::min(rate, std::max(known, m_rate));
+    return rate <= known ? rate : std::min(rate, std::max(known, m_now.rate));
 }
 
 void Convergence::measureRate() noexcept {
@@ -146,8 +146,8 @@ void Convergence::measureRate() noexcept {
         earlier += std::abs(region.earlier);
         noise2 += std::pow(storageNoise(region), 2);
     }
-    m_rate = rateOf(now, earlier, std::sqrt(noise2));
-    m_slowest = std::max(m_rate / (1 - m_rate), kForgetSlowest * m_slowest);
+    m_now.rate = rateOf(now, earlier, std::sqrt(noise2));
+    m_now.slowest = std::max(m_now.rate / (1 - m_now.rate), kForgetSlowest * m_now.slowest);
 }
 
 // A region's distance from its limit, in units of its last change.
@@ -157,53 +157,53 @@ double Convergence::updatesAhead(const Region& region) const noexcept {
 }
 
 void Convergence::followBounces() {
-    m_ahead = 0;
-    if (++m_differences < 2) return;
+    m_now.ahead = 0;
+    if (++m_now.differences < 2) return;
     measureRate();
     // One number of steps for all regions, by least squares of the remainder.
     double product = 0, square = 0, left = 0;
-    m_missing = 0;
+    m_now.missing = 0;
     for (const Region& region : m_regions) {
         const double seen = std::max(std::abs(region.change) - kSignificant * storageNoise(region), 0.0);
         const double ahead = updatesAhead(region);
         product += seen * seen * ahead;
         square += seen * seen;
-        m_missing = std::max(m_missing, seen * std::max(ahead, m_slowest));
+        m_now.missing = std::max(m_now.missing, seen * std::max(ahead, m_now.slowest));
     }
     const double ahead = square > 0 ? product / square : 0;
     for (const Region& region : m_regions) {
         const double seen = std::max(std::abs(region.change) - kSignificant * storageNoise(region), 0.0);
         left = std::max(left, seen * std::abs(ahead - updatesAhead(region)));
     }
-    m_remaining = float(m_missing);
-    m_followed = m_missing < kShareOfBounces * m_tolerance;
-    if (!m_followed && m_differences >= 3 && ahead > 1 && left < kWorthStepping * m_missing) {
-        m_ahead = ahead;
-        m_differences = -1;  // the differences of the next two updates are meaningless
+    m_now.remaining = float(m_now.missing);
+    m_now.followed = m_now.missing < kShareOfBounces * m_tolerance;
+    if (!m_now.followed && m_now.differences >= 3 && ahead > 1 && left < kWorthStepping * m_now.missing) {
+        m_now.ahead = ahead;
+        m_now.differences = -1;  // the differences of the next two updates are meaningless
     }
 }
 
 void Convergence::checkAverage() {
-    const double n = m_averaged, weight = 3 / (n + 2);
+    const double n = m_now.averaged, weight = 3 / (n + 2);
     double worst = 0, common = 0, counting = 0;
     for (Region& region : m_regions) {
         if (!region.counts()) continue;
         common += region.change;
         ++counting;
-        if (m_averaged == 1) continue;  // the average is still a single update
+        if (m_now.averaged == 1) continue;  // the average is still a single update
         // The update against the average of its predecessors, which has noise of its own.
         region.residual2 += std::pow(region.change / weight, 2) / (1 + kAverageVariance / (n - 1));
         worst = std::max(worst, region.residual2 / (n - 1));
     }
     m_common.push_back((m_common.empty() ? 0.0 : m_common.back()) + common / std::max(counting, 1.0));
-    if (m_averaged < kFirstCheck) return;
+    if (m_now.averaged < kFirstCheck) return;
     // The part common to all regions is what bounces feed back: it has fallen by this factor since half as many
     // updates.
-    const double power = 3 / (1 + m_slowest);
+    const double power = 3 / (1 + m_now.slowest);
     const double lately = std::abs(m_common.back() - m_common[m_common.size() / 2 - 1]);
-    m_remaining = float(kStandardErrors * std::sqrt(kAverageVariance * worst / n) +
-                        lately / (std::pow(2.0, power) - 1) + m_missing * std::pow(n, -power));
-    m_converged = m_remaining < m_tolerance;
+    m_now.remaining = float(kStandardErrors * std::sqrt(kAverageVariance * worst / n) +
+                            lately / (std::pow(2.0, power) - 1) + m_now.missing * std::pow(n, -power));
+    m_now.converged = m_now.remaining < m_tolerance;
 }
 
 }  // namespace probegi

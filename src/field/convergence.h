@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -26,17 +27,21 @@ public:
     /// Shares of the old values that the next update keeps; a negative one extrapolates beyond the new values.
     FrameHysteresis kept() const noexcept;
     /// Whether the next update's rays are rotated relative to the last one's.
-    bool turnsRays() const noexcept { return m_averaged > 0 || m_updates < kTurnedUpdates; }
+    bool turnsRays() const noexcept { return m_now.averaged > 0 || m_now.updates < kTurnedUpdates; }
     /// Whether advance() needs the probes after the next update.
-    bool observes() const noexcept { return m_updates + 1 >= kTurnedUpdates; }
+    bool observes() const noexcept { return m_now.updates + 1 >= kTurnedUpdates; }
     /// Call after every update. If observes() was true: mean stored radiance of every probe, and the share of its rays
     /// that hit backfaces; else empty.
     void advance(std::span<const float> brightness, std::span<const float> backfaceShares);
 
-    int updates() const noexcept { return m_updates; }
-    bool converged() const noexcept { return m_converged; }
+    int updates() const noexcept { return m_now.updates; }
+    bool converged() const noexcept { return m_now.converged; }
     /// Largest estimate of a region's remaining relative error; infinite while unknown.
-    float remaining() const noexcept { return m_remaining; }
+    float remaining() const noexcept { return m_now.remaining; }
+
+    /// All that the updates so far have changed, as words, and from them: false if they are not of the same probes.
+    void save(std::vector<std::uint32_t>& state) const;
+    bool restore(std::span<const std::uint32_t> state);
 
 private:
     /// Updates before the bounces are followed, with rotating rays, so that the stored distances use more than one set.
@@ -51,6 +56,7 @@ private:
         bool counts() const { return counting > 0; }
     };
     bool lastBeforeAverage() const noexcept;
+    bool isSound() const noexcept;
     void observe(std::span<const float> brightness, std::span<const float> backfaceShares);
     void makeRegions(std::span<const float> backfaceShares);
     /// `floor`: lower limit of the light that changes are relative to, in shares of the mean probe's.
@@ -66,18 +72,21 @@ private:
     double m_probeNoise;
     float m_tolerance;
     int m_maxUpdates;
-    int m_updates = 0;
-    int m_turned = 0;       ///< ray sets in the distances before the average
-    int m_averaged = 0;     ///< updates of the average, the next one included; 0 while bounces are followed
-    int m_differences = 0;  ///< between plain updates, since the last extrapolation
-    double m_ahead = 0;     ///< how many of its changes the next update extrapolates
-    double m_rate = 0;      ///< factor by which changes shrink from update to update
-    double m_slowest = 0;   ///< slowest recent bounces: how many of their last changes are still missing
-    /// Missing share of the light in the worst region, from missing bounces, before the average.
-    double m_missing = std::numeric_limits<double>::infinity();
-    bool m_followed = false;  ///< whether the bounces were followed far enough
-    bool m_converged = false;
-    float m_remaining = std::numeric_limits<float>::infinity();
+    struct Numbers {
+        int updates = 0;
+        int turned = 0;       ///< ray sets in the distances before the average
+        int averaged = 0;     ///< updates of the average, the next one included; 0 while bounces are followed
+        int differences = 0;  ///< between plain updates, since the last extrapolation
+        double ahead = 0;     ///< how many of its changes the next update extrapolates
+        double rate = 0;      ///< factor by which changes shrink from update to update
+        double slowest = 0;   ///< slowest recent bounces: how many of their last changes are still missing
+        /// Missing share of the light in the worst region, from missing bounces, before the average.
+        double missing = std::numeric_limits<double>::infinity();
+        bool followed = false;  ///< whether the bounces were followed far enough
+        bool converged = false;
+        float remaining = std::numeric_limits<float>::infinity();
+    };
+    Numbers m_now;
     std::vector<Region> m_regions;
     std::vector<double> m_common;  ///< common part of all regions' changes, cumulative up to each update
     std::vector<float> m_last;     ///< brightness after the last update

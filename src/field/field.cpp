@@ -101,6 +101,53 @@ struct Field::Impl {
         return {};
     }
 
+    struct ConvergeCall {
+        float tolerance;
+        int maxFrames;
+        const std::function<void(const UpdateTimes&)>& onUpdate;
+        ConvergeState* state;  // null: not asked for
+    };
+
+    // The convergence's words after the number of the frame whose rays are still in use.
+    void keep(const Convergence& convergence, ConvergeState* state) {
+        if (!state) return;
+        convergence.save(state->words);
+        state->words.push_back(std::uint32_t(books().rayFrame));
+    }
+    Result<void> goOn(const ConvergeState* state, Convergence& convergence) {
+        if (!state || state->empty()) return {};
+        const std::span<const std::uint32_t> words = state->words;
+        const int rayFrame = int(words.back());
+        if (rayFrame < 0 || rayFrame > books().frame || !convergence.restore(words.first(words.size() - 1)))
+            return fail(ErrorCode::invalidArgument,
+                        "the state to converge from is not one of this field's; begin with an empty one");
+        books().turnRaysAt(rayFrame);
+        return {};
+    }
+
+    Result<ConvergeResult> converge(const Tracer& tracer, const Lighting& lighting, const ConvergeCall& call) {
+        if (!(call.tolerance > 0)) return fail(ErrorCode::invalidArgument, "tolerance must be greater than 0");
+        if (call.maxFrames < 1) return fail(ErrorCode::invalidArgument, "maxFrames must be at least 1");
+        Progress progress(context, "converging probes", call.maxFrames);
+        if (auto ready = prepare(tracer); !ready) return ready.error();
+        Convergence convergence(books().desc, books().volumes, call.tolerance, call.maxFrames);
+        const Averaging averaging(books());
+        if (auto restored = goOn(call.state, convergence); !restored) return restored.error();
+        bool goesOn = convergence.updates() == 0 || progress.advance(convergence.updates());
+        while (goesOn && convergence.updates() < call.maxFrames && !convergence.converged()) {
+            const auto times = backend->update(books().comingAverage(convergence.kept()), tracer, lighting);
+            if (!times) return times.error();
+            const auto observed = observe(convergence);
+            books().advance(convergence.turnsRays());
+            if (!observed) return observed.error();
+            keep(convergence, call.state);
+            if (call.onUpdate) call.onUpdate(*times);
+            goesOn = progress.advance();
+        }
+        if (!goesOn) return fail(ErrorCode::cancelled, "cancelled while converging probes");
+        return ConvergeResult{convergence.updates(), convergence.converged(), convergence.remaining()};
+    }
+
     void swapPlacement(FieldControl::Impl::Placement& other) noexcept {
         books().swapPlacement(other);
         backend->place(books().volumes);
@@ -208,24 +255,15 @@ Result<UpdateTimes> Field::update(const Tracer& tracer, const Lighting& lighting
 
 Result<ConvergeResult> Field::converge(const Tracer& tracer, const Lighting& lighting, float tolerance, int maxFrames,
                                        const std::function<void(const UpdateTimes&)>& onUpdate) try {
-    if (!(tolerance > 0)) return fail(ErrorCode::invalidArgument, "tolerance must be greater than 0");
-    if (maxFrames < 1) return fail(ErrorCode::invalidArgument, "maxFrames must be at least 1");
-    Impl& m = *m_impl;
-    Progress progress(m.context, "converging probes", maxFrames);
-    FieldControl::Impl& books = m.books();
-    if (auto ready = m.prepare(tracer); !ready) return ready.error();
-    Convergence convergence(books.desc, books.volumes, tolerance, maxFrames);
-    const Averaging averaging(books);
-    while (convergence.updates() < maxFrames && !convergence.converged()) {
-        const auto times = m.backend->update(books.comingAverage(convergence.kept()), tracer, lighting);
-        if (!times) return times.error();
-        const auto observed = m.observe(convergence);
-        books.advance(convergence.turnsRays());
-        if (!observed) return observed.error();
-        if (onUpdate) onUpdate(*times);
-        if (!progress.advance()) return fail(ErrorCode::cancelled, "cancelled while converging probes");
-    }
-    return ConvergeResult{convergence.updates(), convergence.converged(), convergence.remaining()};
+    return m_impl->converge(tracer, lighting, {tolerance, maxFrames, onUpdate, nullptr});
+} catch (const std::bad_alloc&) {
+    return fail(ErrorCode::outOfMemory, kNoRayDataMemory);
+}
+
+Result<ConvergeResult> Field::converge(const Tracer& tracer, const Lighting& lighting, ConvergeState& state,
+                                       float tolerance, int maxFrames,
+                                       const std::function<void(const UpdateTimes&)>& onUpdate) try {
+    return m_impl->converge(tracer, lighting, {tolerance, maxFrames, onUpdate, &state});
 } catch (const std::bad_alloc&) {
     return fail(ErrorCode::outOfMemory, kNoRayDataMemory);
 }

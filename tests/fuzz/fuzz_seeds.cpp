@@ -1,12 +1,15 @@
-// fuzz_seeds FOLDER: writes small valid files to FOLDER/gltf, FOLDER/image and FOLDER/sdf for the fuzzers to start
-// from.
+// fuzz_seeds FOLDER: writes small valid files to FOLDER/gltf, FOLDER/image, FOLDER/sdf and FOLDER/field for the fuzzers
+// to start from.
 #include <filesystem>
 #include <fstream>
 
+#include "field_file/field_bytes.h"
 #include "io/draco_sample.h"
 #include "io/gltf_builder.h"
 #include "io/image_codec.h"
 #include "io/stb.h"
+#include "probegi/masks.h"
+#include "probegi/shapes.h"
 
 namespace {
 
@@ -58,6 +61,32 @@ Bytes primitives() {
     return {text.begin(), text.end()};
 }
 
+/// Eight probes, and a wall between them.
+probegi::SavedField field(bool withMasks) {
+    using namespace probegi;
+    const Context context = Context::create({.threads = 1}).value();
+    Scene scene;
+    scene.materials.resize(1);
+    Primitive wall;
+    addBox(wall, {0.4f, -1, -1}, {0.5f, 2, 2});
+    addObject(scene, std::move(wall));
+    const ScenePose pose = poseAt(scene);
+    const auto tracer = makeEmbreeTracer(context, scene, pose).value();
+    FieldDesc desc;
+    desc.irradianceTexels = desc.visibilityTexels = 4;
+    desc.raysPerProbe = 8;
+    FieldSettings settings;
+    if (withMasks) {
+        settings.masks = bakeMasks(context, *tracer, desc, {.factor = 2}).value();
+        settings.guard = LeakGuard::masks;
+    }
+    Field made = Field::create(context, desc, settings).value();
+    ConvergeState state;
+    const Lighting sky{{}, {glm::vec3(1), {}}};
+    made.converge(*tracer, sky, state, 0.5f, 4).value();
+    return {made.read().value(), settings, {"seed", "a wall", "--clusters 4", {1, 2}}, state};
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -69,6 +98,8 @@ int main(int count, char** arguments) {
     write(folder / "gltf" / "draco.glb", dracoScene().glb());
     write(folder / "gltf" / "settings.ini", settings());
     write(folder / "sdf" / "all.json", primitives());
+    write(folder / "field" / "moments.field", probegi::encodeField(field(false)));
+    write(folder / "field" / "masks.field", probegi::encodeField(field(true)));
     writeImages(folder / "image");
     return 0;
 }

@@ -22,7 +22,7 @@ else
     length=(-seed=1 -timeout=60)
     words="a fixed number of inputs from seed 1"
 fi
-declare -A runs=([gltf]=40000 [image]=8000 [sdf]=200000)  # at most about a minute each, side by side
+declare -A runs=([gltf]=40000 [image]=8000 [sdf]=200000 [field]=40000)  # at most about a minute each, side by side
 mkdir -p "$corpus"
 "$build/tests/fuzz/fuzz_seeds" "$corpus"
 status=0
@@ -30,7 +30,7 @@ declare -A running
 count=()
 same_addresses=()  # on which the choice of inputs depends
 [[ -n $seconds ]] || ! setarch -R true 2>/dev/null || same_addresses=(setarch -R)
-for reader in gltf image sdf; do
+for reader in gltf image sdf field; do
     echo "fuzz_$reader: $words"
     [[ -n $seconds ]] || count=(-runs="${runs[$reader]}")
     "${same_addresses[@]}" "$build/tests/fuzz/fuzz_$reader" "${length[@]}" "${count[@]}" -rss_limit_mb=2048 -malloc_limit_mb=2048 \
@@ -38,7 +38,7 @@ for reader in gltf image sdf; do
         >"$corpus/$reader.log" 2>&1 &
     running[$reader]=$!
 done
-for reader in gltf image sdf; do
+for reader in gltf image sdf field; do
     wait "${running[$reader]}" || status=1
     tail -n 12 "$corpus/$reader.log"
 done

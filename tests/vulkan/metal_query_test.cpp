@@ -48,7 +48,9 @@ struct ConstantField {
                                   .rays = books.raySet(0),
                                   .masks = {},
                                   .maskTexels = 2,
-                                  .maskPacked = 0};
+                                  .maskPacked = 0,
+                                  .blockers = {},
+                                  .blockerCount = 0};
         std::memcpy(static_cast<void*>(&constants), &c, sizeof c);
         words.assign(std::size_t(1 + 2 * probeCount(desc)), 0u);  // no backs, all on the lattice
         for (std::size_t i = 2; i < words.size(); i += 2) words[i] = std::uint32_t(ProbeActivity::vigilant);

@@ -439,21 +439,64 @@ TEST_F(VulkanRecorded, rayDataThatIsTooShortIsRefused) {
     EXPECT_EQ(volume.control().frame(), 1);
 }
 
-TEST_F(VulkanRecorded, masksAreRefused) {
+// Masks that change from pass to pass, asked by the library and by a shader of the engine.
+TEST_F(VulkanRecorded, masksAreLookedUp) {
     const vulkan::Device device = adopt();
-    GpuField volume = *GpuField::create(device, world.desc, world.desc);
-    FieldSetup masked = world.desc;
-    masked.guard = LeakGuard::masks;
     const auto tracer = makeEmbreeTracer(log, world.scene, world.pose).value();
-    masked.masks = bakeMasks(log, *tracer, masked, {.factor = 2}).value();
-    const auto made = GpuField::create(device, masked, masked);
-    ASSERT_FALSE(made);
-    EXPECT_EQ(made.error().code, ErrorCode::unsupported);
-    EXPECT_TRUE(volume.control().setSettings(masked));
+    const auto baked = [&](int clusters, int factor) {
+        FieldSetup masked = world.desc;
+        masked.guard = LeakGuard::masks;
+        masked.masks = bakeMasks(log, *tracer, masked, {.clusters = clusters, .factor = factor}).value();
+        return masked;
+    };
+    // Two texels to a word and one, fewer words and more.
+    const FieldSetup few = baked(4, 2), more = baked(8, 5), again = baked(3, 3);
+    GpuField volume = *GpuField::create(device, few, few);
+    const EngineBuffer of[] = {answers(), answers(), answers(), answers()}, byShader = answers(),
+                       withoutMasks = answers();
+    QueryShader shader(engine, PROBEGI_QUERY_MASKS_SPIRV, questions, byShader),
+        blind(engine, PROBEGI_QUERY_SPIRV, questions, withoutMasks);
+    for (const QueryShader* each : {&shader, &blind})
+        volume.writeQueryBindings(each->volumeSet(), QueryShader::kFirstBinding);
     engine.run([&](VkCommandBuffer commands) {
-        const auto recorded = volume.recordSettings(commands);
-        ASSERT_FALSE(recorded);
-        EXPECT_EQ(recorded.error().code, ErrorCode::unsupported);
+        volume.recordClear(commands).value();
+        volume.recordUpdate(commands, rayBuffer.range()).value();
+        volume.recordQuery(commands, questions.address, of[0].address, count()).value();
+        volume.control().setSettings(more).value();
+        volume.recordQuery(commands, questions.address, of[1].address, count()).value();
+        volume.control().setSettings(again).value();
+        volume.recordQuery(commands, questions.address, of[2].address, count()).value();
+        shader.record(commands, count());
+        blind.record(commands, count());
+        volume.control().setSettings(few).value();
+        volume.recordSettings(commands).value();
+        volume.recordQuery(commands, questions.address, of[3].address, count()).value();
+    });
+    const auto differing = [&](const EngineBuffer& got, const FieldSetup& setup) {
+        Field field = *Field::create(log, setup, setup);
+        field.update(rays).value();
+        std::vector<glm::vec3> wanted(queries.size());
+        field.irradiance(queries, wanted).value();
+        const std::vector<glm::vec3> values = valuesOf(got);
+        int differ = 0;
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+            differ += std::abs(values[i].y - wanted[i].y) > 0.01f * wanted[i].y + 1e-4f ? 1 : 0;
+        return differ;
+    };
+    // At a wall, rounding decides the side of a point.
+    EXPECT_LE(differing(of[0], few), 2);
+    EXPECT_LE(differing(of[1], more), 2);
+    EXPECT_LE(differing(of[2], again), 2);
+    EXPECT_LE(differing(of[3], few), 2);
+    EXPECT_LE(differing(byShader, again), 2);
+    EXPECT_GT(differing(of[1], few), 2) << "masks decide";
+    EXPECT_GT(differing(withoutMasks, again), 2) << "this shader does not read them";
+    for (const glm::vec3& e : valuesOf(withoutMasks)) ASSERT_TRUE(finite(e));
+    FieldSetup other = few;
+    other.volumes[0].spacing.x *= 2;
+    EXPECT_EQ(GpuField::create(device, other, few).error().code, ErrorCode::invalidArgument) << "baked for others";
+    engine.run([&](VkCommandBuffer commands) {
+        EXPECT_EQ(volume.recordScroll(commands, 0, {1, 0, 0}).error().code, ErrorCode::invalidArgument);
     });
 }
 

@@ -45,7 +45,7 @@ std::array<float, 8> seenFrom(const FieldRecord& record, const RecordAccess& acc
     std::array<float, 8> factors;
     factors.fill(1);
     const kernels::Volume& v = record.volumes[std::size_t(look.volume)];
-    const kernels::GuardPoint point = kernels::guardPoint(access, v, look.cage, look.weights.slot[0]);
+    const kernels::GuardPoint point = kernels::guardPoint(access, v, look.cage, kernels::cageSlots(v, look.cage.base));
     for (std::size_t corner = 0; corner < 8; ++corner) {
         if (!hidden.corner[corner]) continue;
         const int slot = look.weights.slot[corner];
@@ -55,11 +55,22 @@ std::array<float, 8> seenFrom(const FieldRecord& record, const RecordAccess& acc
         const glm::vec3 fromProbe = look.cage.bias - toProbe;
         const float distance = glm::length(fromProbe);
         if (!(distance > 0)) continue;
-        const float now = kernels::guardSeen(access, v, slot, fromProbe, point);
+        const float now = kernels::guardSeen(access, v, slot, int(corner), fromProbe, point);
         if (!(now > 0)) continue;  // no distance makes masks see more
-        factors[corner] = kernels::guardSeen(access, v, slot, fromProbe * (1 + extra / distance), point) / now;
+        factors[corner] =
+            kernels::guardSeen(access, v, slot, int(corner), fromProbe * (1 + extra / distance), point) / now;
     }
     return factors;
+}
+
+/// Whether masks, and not distances, say what the point sees.
+bool goesByMasks(const FieldRecord& record, const FieldQuery& point) {
+    if (record.settings.guard != LeakGuard::masks) return false;
+    const LookUp look = lookUp(record, point);
+    const LeftOut none;
+    const RecordAccess access(record, none);
+    const kernels::Volume& v = record.volumes[std::size_t(look.volume)];
+    return kernels::guardPoint(access, v, look.cage, kernels::cageSlots(v, look.cage.base)).scale > 0;
 }
 
 bool inMatter(const FieldRecord& record, int slot) {
@@ -224,6 +235,8 @@ Result<PointCause> explain(const FieldRecord& record, const Tracer& tracer, cons
         const auto way = distanceToOpen(tracer, point.probe);
         if (!way) return way.error();
         why.move = *way;
+    } else if (goesByMasks(record, point.query)) {
+        why.cause = LeakCause::sharedCluster;
     } else if (auto done = explainGuard(record, tracer, point, obstacle, least, why); !done) {
         return done.error();
     }

@@ -1,4 +1,5 @@
 #include "core/sentence.h"
+#include "field/layout.h"
 #include "vulkan/field/gpu_field_impl.h"
 
 namespace probegi::vulkan {
@@ -28,7 +29,7 @@ GpuField::~GpuField() = default;
 Result<GpuField> GpuField::create(const Device& device, const FieldDesc& desc, const FieldSettings& settings) {
     if (auto ok = validateFieldDesc(desc); !ok) return ok.error();
     if (auto ok = validateFieldSettings(settings); !ok) return ok.error();
-    if (auto ok = Impl::withoutMasks(settings); !ok) return ok.error();
+    if (auto ok = validateGuard(desc, settings); !ok) return ok.error();
     return guarded("making a field", [&] { return GpuField(std::make_unique<Impl>(device, desc, settings)); });
 }
 

@@ -15,16 +15,9 @@ struct GpuField::Impl {
 
     FieldControl::Impl& books() noexcept { return control.impl(); }
 
-    /// Shaders of engines cannot read masks, and masks in use could not be replaced. Errors: unsupported.
-    static Result<void> withoutMasks(const FieldSettings& settings) {
-        if (settings.guard != LeakGuard::masks) return {};
-        return fail(ErrorCode::unsupported, "LeakGuard::masks works with vulkan::makeField, not with a GpuField");
-    }
-
     /// guarded() for recording passes. If it fails, callers drop the command buffer, so what was recorded never runs.
     template <class Body>
     Result<void> recorded(const char* doing, const Body& body) {
-        if (auto ok = withoutMasks(control.settings()); !ok) return ok;
         auto done = guarded(doing, body);
         if (!done) {
             passes.forgetRecorded();

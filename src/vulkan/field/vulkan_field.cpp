@@ -263,7 +263,7 @@ Result<Field> makeField(const Context& context, const Device& device, const Fiel
                         const FieldSettings& settings) {
     if (auto ok = validateFieldDesc(desc); !ok) return ok.error();
     if (auto ok = validateFieldSettings(settings); !ok) return ok.error();
-    if (auto ok = validateMasks(desc, settings); !ok) return ok.error();
+    if (auto ok = validateGuard(desc, settings); !ok) return ok.error();
     return guarded("making a field", [&] {
         return makeFieldOn(context, desc, settings, std::make_unique<VulkanField>(context, device, desc, settings));
     });
