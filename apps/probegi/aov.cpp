@@ -30,6 +30,10 @@ const HdrImage& layerOf(const Picture& picture, Aov aov) {
             return picture.indirect;
         case Aov::glossy:
             return picture.glossy;
+        case Aov::contact:
+            return picture.contact;
+        case Aov::openness:
+            return picture.openness;
         case Aov::color:
             break;
     }
@@ -74,14 +78,15 @@ HdrImage asWhiteSurface(HdrImage irradiance) {
 
 bool isLight(Aov aov) {
     return aov == Aov::color || aov == Aov::direct || aov == Aov::indirect || aov == Aov::irradiance ||
-           aov == Aov::glossy;
+           aov == Aov::glossy || aov == Aov::contact;
 }
 
 HdrImage shownLayer(const Picture& picture, Aov aov) {
     const HdrImage& layer = layerOf(picture, aov);
     if (aov == Aov::normal) return displayNormals(layer);
     if (aov == Aov::depth) return displayDepth(layer);
-    return aov == Aov::irradiance ? asWhiteSurface(layer) : layer;
+    if (aov == Aov::openness) return linearFromDisplay(layer);
+    return aov == Aov::irradiance || aov == Aov::contact ? asWhiteSurface(layer) : layer;
 }
 
 Result<void> writeAov(const std::string& path, const Picture& picture, Aov aov, const ToneMap& toneMap,

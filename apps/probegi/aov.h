@@ -7,13 +7,13 @@
 namespace probegi::tool {
 
 /// Which layer of a Picture is written.
-enum class Aov { color, irradiance, normal, albedo, depth, direct, indirect, glossy };
+enum class Aov { color, irradiance, normal, albedo, depth, direct, indirect, glossy, contact, openness };
 
 /// Whether a layer is light, to which exposure and the filmic curve apply.
 bool isLight(Aov aov);
 
 /// A layer as a readable picture, linear: normals as 0.5 + 0.5 n, depth from white to black at the farthest point,
-/// irradiance as reflected by a white diffuse surface.
+/// irradiance (and contact light) as reflected by a white diffuse surface.
 HdrImage shownLayer(const Picture& picture, Aov aov);
 
 /// Writes a layer to `path`: linear values for .exr, shownLayer() for .png. The tone map applies to light only. Warns

@@ -6,6 +6,7 @@ namespace probegi::tool {
 
 // One function per command, each in its own file. A command sets `exitCode`: 0, or 1 after a failure.
 void addRenderCommand(CLI::App& app, int& exitCode);
+void addBakeCommand(CLI::App& app, int& exitCode);
 void addCompareCommand(CLI::App& app, int& exitCode);
 void addInfoCommand(CLI::App& app, int& exitCode);
 void addScenesCommand(CLI::App& app, int& exitCode);

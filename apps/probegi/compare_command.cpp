@@ -9,6 +9,7 @@
 #include "console/output.h"
 #include "console/parse.h"
 #include "console/terminal.h"
+#include "field_text.h"
 
 namespace probegi::tool {
 
@@ -49,7 +50,19 @@ void print(const ImageDifference& d, bool json) {
             r.mean, r.blocks, r.low, r.median, r.high);
 }
 
+Result<void> compareFieldsOf(const CompareOptions& options) {
+    for (const std::string& file : {options.test, options.reference})
+        if (!isFieldFile(file))
+            return fail(
+                ErrorCode::invalidArgument,
+                fmt::format("'{}' is no field, and the other one is; compare two fields or two pictures", file));
+    if (!options.heatmap.empty())
+        return fail(ErrorCode::invalidArgument, "--heatmap shows where pictures differ; fields have none");
+    return compareFieldFiles(options.test, options.reference, options.json, options.limits);
+}
+
 Result<void> compare(const CompareOptions& options) {
+    if (isFieldFile(options.test) || isFieldFile(options.reference)) return compareFieldsOf(options);
     const bool writesMap = !options.heatmap.empty();
     Outputs outputs;
     if (writesMap)
@@ -77,19 +90,30 @@ Result<void> compare(const CompareOptions& options) {
 }  // namespace
 
 void addCompareCommand(CLI::App& app, int& exitCode) {
-    CLI::App* command = app.add_subcommand("compare", "measure how far a picture is from a reference picture");
+    CLI::App* command = app.add_subcommand(
+        "compare", "measure how far a picture is from a reference picture, or a field's probes from another's");
     const auto options = std::make_shared<CompareOptions>();
-    command->add_option("A", options->test, "the picture to test: .exr, .hdr, .png or .jpg")->type_name("")->required();
-    command->add_option("B", options->reference, "the reference, of the same size")->type_name("")->required();
+    command
+        ->add_option("A", options->test, "the picture to test: .exr, .hdr, .png or .jpg; or a field of 'probegi bake'")
+        ->type_name("")
+        ->required();
+    command->add_option("B", options->reference, "the reference, of the same size; or a field with the same volumes")
+        ->type_name("")
+        ->required();
     command->add_option("--heatmap", options->heatmap, "write where they differ (FLIP, dark to bright): .png or .exr")
         ->type_name("FILE");
-    command->add_flag("--json", options->json, "print JSON with the keys rmse, relmse, scaledRelmse, flip and ratio");
+    command->add_flag(
+        "--json", options->json,
+        "print JSON with the keys rmse, relmse, scaledRelmse, flip and ratio; of fields probes, mean, rms, ratio, "
+        "worst, worstSlot, equalMaps, equalStates and equalMasks");
     command->add_option("--exposure", options->exposure, "factor on the light before display values are compared")
         ->type_name("FACTOR")
         ->check(inRange(1e-9, 1e9))
         ->capture_default_str();
     addUnpackLimit(*command, options->limits);
-    command->footer("Example: probegi compare field.exr reference.exr --heatmap difference.png");
+    command->footer(
+        "Example: probegi compare field.exr reference.exr --heatmap difference.png\n"
+        "Example: probegi compare house.field other.field");
     command->callback([options, &exitCode] {
         if (const auto done = compare(*options); !done) exitCode = printError(done.error());
     });

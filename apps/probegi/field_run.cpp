@@ -68,12 +68,16 @@ Result<FieldRun> runField(Field& field, const Tracer& tracer, const Lighting& li
     const auto done = field.converge(tracer, lighting, toleranceOf(options), kConvergeMaxUpdates, record);
     if (!done) return done.error();
     run.convergence = *done;
-    if (!done->converged)
-        printWarning(
-            fmt::format("the probes have not converged to {:.2g} % after {} updates: {}; give more --rays or "
-                        "a larger --tolerance",
-                        100 * toleranceOf(options), done->updates, remainingText(*done)));
+    warnUnlessConverged(run, options);
     return run;
+}
+
+void warnUnlessConverged(const FieldRun& run, const FieldRunOptions& options) {
+    if (!run.convergence || run.convergence->converged) return;
+    printWarning(
+        fmt::format("the probes have not converged to {:.2g} % after {} updates: {}; give more --rays or "
+                    "a larger --tolerance",
+                    100 * toleranceOf(options), run.convergence->updates, remainingText(*run.convergence)));
 }
 
 double mean(const std::vector<std::size_t>& counts) {

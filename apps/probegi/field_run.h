@@ -36,6 +36,9 @@ struct FieldRun {
 /// Fills the field. Warns on the console if it has not converged. Errors: those of the updates.
 Result<FieldRun> runField(Field& field, const Tracer& tracer, const Lighting& lighting, const FieldRunOptions& options);
 
+/// Warns on the console if it has not converged, and says how far it is.
+void warnUnlessConverged(const FieldRun& run, const FieldRunOptions& options);
+
 /// 0 if there are no values.
 double mean(const std::vector<std::size_t>& counts);
 

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "console/output.h"
+#include "field_text.h"
 #include "scene_setup.h"
 
 namespace probegi::tool {
@@ -143,8 +144,8 @@ void printText(const Json& info) {
 }  // namespace
 
 void addInfoCommand(CLI::App& app, int& exitCode) {
-    CLI::App* command =
-        app.add_subcommand("info", "print what a scene contains: triangles, lights, cameras, probe grid");
+    CLI::App* command = app.add_subcommand(
+        "info", "print what a scene contains: triangles, lights, cameras, probe grid; or what a field's file does");
     struct Options {
         SceneOptions scene;
         bool json = false;
@@ -152,8 +153,14 @@ void addInfoCommand(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<Options>();
     addSceneArgument(*command, options->scene);
     command->add_flag("--json", options->json, "print JSON");
-    command->footer("Example: probegi info sponza.glb\nLengths are metres, angles radians.");
+    command->footer(
+        "Example: probegi info sponza.glb\nExample: probegi info sponza.field\nLengths are metres, angles radians.");
     command->callback([options, &exitCode] {
+        if (isFieldFile(options->scene.scene)) {
+            const auto printed = printFieldInfo(options->scene.scene, options->json, options->scene.limits);
+            if (!printed) exitCode = printError(printed.error());
+            return;
+        }
         const auto loaded = readScene(options->scene);
         if (!loaded) {
             exitCode = printError(loaded.error());

@@ -50,6 +50,7 @@ int run(int argc, char** argv) {
     int exitCode = 0;
     addScenesCommand(app, exitCode);
     addRenderCommand(app, exitCode);
+    addBakeCommand(app, exitCode);
     addReportCommand(app, exitCode);
     addAuditCommand(app, exitCode);
     addFitCommand(app, exitCode);

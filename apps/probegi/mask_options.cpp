@@ -15,14 +15,18 @@ constexpr int kStrictClusters = 6;
 
 }  // namespace
 
-void addMaskOptions(CLI::App& command, MaskOptions& options) {
+void addMaskOptions(CLI::App& command, MaskOptions& options, bool shortNames) {
     constexpr const char* kGroup = "Masks";
-    static const std::map<std::string, LeakGuard> kGuards{{"moments", LeakGuard::moments}, {"masks", LeakGuard::masks}};
+    static const std::map<std::string, LeakGuard> kGuards{
+        {"moments", LeakGuard::moments}, {"masks", LeakGuard::masks}, {"sdf-shadow", LeakGuard::sdfShadow}};
     command
         .add_option("--leak-guard", options.guard,
-                    "which probes a point may use, with --method ddgi: by the distances that they store (moments, the "
-                    "default), or by visibility that is baked first, for scenes that stand still (masks)")
-        ->type_name("moments|masks")
+                    fmt::format("which probes a point may use, with --method ddgi: by the distances that they store "
+                                "(moments), by visibility that is baked first, with --animate again for each "
+                                "picture in which things have moved (masks), or by the shadows of the primitives of "
+                                "--sdf between points and probes (sdf-shadow) (default {})",
+                                options.bakes() ? "masks" : "moments"))
+        ->type_name("moments|masks|sdf-shadow")
         ->transform(oneOf(kGuards))
         ->group(kGroup);
     command
@@ -35,13 +39,13 @@ void addMaskOptions(CLI::App& command, MaskOptions& options) {
         ->group(kGroup);
     command
         .add_option(
-            "--mask-factor", options.factor,
+            shortNames ? "--factor,--mask-factor" : "--mask-factor", options.factor,
             fmt::format("mask texels along the edge of a cell of probes, 2 to 16 (default {})", MaskDesc{}.factor))
         ->type_name("N")
         ->check(inRange(2, 16))
         ->group(kGroup);
     command
-        .add_flag("--mask-strict", options.strict,
+        .add_flag(shortNames ? "--strict,--mask-strict" : "--mask-strict", options.strict,
                   "a point uses a cluster only where it sees all its probes: nothing leaks, more is unlit by probes "
                   "that it could see")
         ->group(kGroup);
@@ -52,21 +56,27 @@ void checkMaskOptions(const MaskOptions& options) {
         throw CLI::ValidationError("--clusters, --mask-factor, --mask-strict", "they act on --leak-guard masks only");
 }
 
-Result<void> bakeMasksFor(Field& field, const Context& context, const Tracer& tracer, const LoadedSetup& setup,
-                          const MaskOptions& options) {
+MaskDesc maskDesc(const MaskOptions& options, std::uint64_t seed) {
     MaskDesc desc;
     desc.strict = options.strict;
     desc.clusters = options.clusters.value_or(options.strict ? kStrictClusters : desc.clusters);
     desc.factor = options.factor.value_or(desc.factor);
-    desc.seed = field.desc().seed;
+    desc.seed = seed;
+    return desc;
+}
+
+Result<void> bakeMasksFor(Field& field, const Context& context, const Tracer& tracer, const LoadedSetup& setup,
+                          const MaskOptions& options) {
+    MaskDesc desc = maskDesc(options, field.desc().seed);
     const std::vector<Bounds> occluders = triangleBounds(*setup.scene, setup.pose);
     desc.occluders = occluders;
     std::vector<glm::vec3> positions;
-    if (field.desc().relocation) {
+    if (field.desc().relocation && field.control().frame() == 0) {
         if (auto updated = field.update(tracer, setup.lighting); !updated) return updated.error();
+    }
+    if (field.desc().relocation)
         for (int slot = 0; slot < probeCount(field.desc()); ++slot)
             positions.push_back(field.control().probePosition(slot));
-    }
     desc.positions = positions;
     auto masks = bakeMasks(context, tracer, field.desc(), desc);
     if (!masks) return masks.error();

@@ -10,20 +10,24 @@ namespace probegi::tool {
 
 /// --leak-guard and how masks are baked.
 struct MaskOptions {
-    LeakGuard guard = LeakGuard::moments;  ///< of --method ddgi: moments or masks
+    LeakGuard guard = LeakGuard::moments;  ///< of --method ddgi: all but none
     std::optional<int> clusters, factor;   ///< --clusters, --mask-factor
     bool strict = false;                   ///< --mask-strict
 
     bool bakes() const noexcept { return guard == LeakGuard::masks; }
 };
 
-void addMaskOptions(CLI::App& command, MaskOptions& options);
+/// `shortNames`: --factor and --strict too, for a command that is about masks.
+void addMaskOptions(CLI::App& command, MaskOptions& options, bool shortNames = false);
 
 /// Throws CLI::ValidationError where masks are not looked up, but options for them were given.
 void checkMaskOptions(const MaskOptions& options);
 
-/// Bakes the masks of a field that has other guards so far, and has it use them from now on. With relocation the field
-/// gets an update first, which places its probes. Errors: those of Field::update and bakeMasks.
+/// How masks will be baked.
+MaskDesc maskDesc(const MaskOptions& options, std::uint64_t seed);
+
+/// Bakes masks for a field, in place of those that it may have, and has it use them from now on. With relocation a new
+/// field gets an update first, which places its probes. Errors: those of Field::update and bakeMasks.
 Result<void> bakeMasksFor(Field& field, const Context& context, const Tracer& tracer, const LoadedSetup& setup,
                           const MaskOptions& options);
 

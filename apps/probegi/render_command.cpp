@@ -13,6 +13,7 @@
 #include "debug_view.h"
 #include "render_options.h"
 #include "render_stats.h"
+#include "saved_field.h"
 #include "sdf_scene.h"
 
 namespace probegi::tool {
@@ -31,10 +32,13 @@ Example: probegi render builtin:cornell -o darker.png --exposure 0.8
 Example: probegi render sponza.glb -o sponza.exr --camera nave --sky 0.3,0.4,0.6 --size 1920x1080 --stats stats.json
 Example: probegi render builtin:house -o house.png --backend vulkan
 Example: probegi render builtin:mirrors -o mirrors.png --glossy field
+Example: probegi render builtin:desk -o desk.png --contact on
 Example: probegi render builtin:dark-room -o dark.png --camera dark --leak-guard masks --stats masks.json
 Example: probegi render sponza.glb -o near.png --camera nave --sky 0.3,0.4,0.6 --cascades 4
 Example: probegi render sponza.glb -o seams.png --camera nave --sky 0.3,0.4,0.6 --cascades 4 --debug volumes
 Example: probegi render builtin:house -o house.png --sdf house.sdf.json
+Example: probegi render builtin:house -o house.png --sdf house.sdf.json --method sdfddgi
+Example: probegi render builtin:house -o house.png --field house.field
 Example: probegi render builtin:house -o truth.png --method reference --time 30
 Example: probegi render builtin:door -o door%03d.png --animate 0:4:0.1 --camera second
 Example: probegi render builtin:moving -o moving.mp4 --animate 0:4:0.04 --camera tracking
@@ -43,24 +47,43 @@ Example: probegi render builtin:moving -o moving.mp4 --animate 0:4:0.04 --camera
 --animate fills the probes by 100 real-time updates (--frames) before the first picture; all pictures get one exposure,
 chosen from five of them. With --method reference, --spp and --time are for each picture.)";
 
-/// What rays hit: those of pictures, and those of probes if it is something else (--sdf).
+/// What rays hit: those of pictures, and those of probes if it is something else (--sdf). And what probes begin with.
 struct Tracers {
     const Tracer& pictures;
     const Tracer* primitives;
+    const SavedField* saved;  ///< of --field; null: none
 
     const Tracer& probes() const { return primitives ? *primitives : pictures; }
 };
 
+Result<std::optional<Field>> takeUp(const Backend& backend, const SavedField& saved, const LoadedSetup& setup,
+                                    const RenderOptions& options) {
+    auto field = openSavedField(backend, saved, options.method);
+    if (!field) return field.error();
+    if (auto set = setBudget(*field, setup, options); !set) return set.error();
+    if (options.masks.guard != LeakGuard::sdfShadow) return std::move(*field);
+    FieldSettings settings = field->control().settings();
+    settings.guard = LeakGuard::sdfShadow;
+    if (auto placed = placeGuard(settings, setup, setup.pose); !placed) return placed.error();
+    if (auto set = field->control().setSettings(settings); !set) return set.error();
+    return std::move(*field);
+}
+
 Result<std::optional<Field>> makeField(const Context& context, const Backend& backend, const Tracers& tracers,
                                        const LoadedSetup& setup, const RenderOptions& options, RenderStats& stats) {
-    auto field = makeEmptyField(backend, setup, options);
+    auto field = tracers.saved ? takeUp(backend, *tracers.saved, setup, options)
+                               : makeEmptyField(backend, setup, options, setup.pose);
     if (!field || !*field) return field;
     stats.probes = probeCount((*field)->desc());
     stats.raysPerProbe = (*field)->desc().raysPerProbe;
     if (options.masks.bakes()) {
         if (auto baked = bakeMasksFor(**field, context, tracers.pictures, setup, options.masks); !baked)
             return baked.error();
-        stats.masks = (*field)->control().settings().masks->report();
+    }
+    if (const auto& masks = (*field)->control().settings().masks) stats.masks = masks->report();
+    if (tracers.saved && !updatesSaved(options)) {
+        stats.active = int((*field)->control().tasks().size());
+        return field;
     }
     if (!options.debug.empty() && !findDebugView(options.debug)->needsLight) return field;
     auto run = runField(**field, tracers.probes(), setup.lighting, options.run);
@@ -82,6 +105,7 @@ Result<Picture> drawWithField(const Context& context, const Backend& backend, co
     if (!rendered) return rendered.error();
     stats.pictureMs = rendered->times.total;
     if (options.glossy != Glossy::off) stats.glossyMs = rendered->times.glossy;
+    if (options.contact) stats.contactMs = rendered->times.contact;
     return std::move(rendered->picture);
 }
 
@@ -112,6 +136,7 @@ void warnAboutUnusedOptions(const RenderOptions& options) {
         printWarning("--spp, --time and --guide act on --method reference only");
     if (options.glossy != Glossy::off && (reference || options.diffuseOnly))
         printWarning("--glossy does nothing with --method reference and with --diffuse-only");
+    if (options.contact && reference) printWarning("--contact does nothing with --method reference");
     const bool probes = hasProbes(options);
     if (!probes && (options.run.frames || options.run.tolerance))
         printWarning("--frames and --tolerance act on --method ddgi and leaky, and on --guide on, only");
@@ -125,13 +150,29 @@ void warnAboutUnusedOptions(const RenderOptions& options) {
         printWarning("--updates-per-frame and --events act on the probes of --animate only");
 }
 
+/// --method sdfddgi is --method ddgi with what the SDFDDGI paper has, where the command line does not say otherwise.
+void applyPreset(const CLI::App& command, RenderOptions& options) {
+    if (options.method != Method::sdfddgi) return;
+    if (options.scene.sdf.empty())
+        throw CLI::ValidationError("--method", "sdfddgi needs the primitives of --sdf FILE, which 'probegi fit' makes");
+    options.method = Method::ddgi;
+    const auto given = [&](const char* name) { return command.get_option(name)->count() > 0; };
+    if (!given("--leak-guard")) options.masks.guard = LeakGuard::sdfShadow;
+    if (!given("--relocation")) options.relocation = true;
+    if (!given("--contact")) options.contact = options.debug.empty();
+}
+
 void checkOptions(const CLI::App& command, const RenderOptions& options) {
     checkBackendOptions(command, options.backend);
     checkMaskOptions(options.masks);
     if (options.masks.bakes() && options.method != Method::ddgi)
         throw CLI::ValidationError("--leak-guard", "masks are looked up with --method ddgi only");
-    if (options.masks.bakes() && !options.animate.empty())
-        throw CLI::ValidationError("--leak-guard", "masks are baked for a scene that stands still, without --animate");
+    if (options.masks.guard == LeakGuard::sdfShadow && options.scene.sdf.empty())
+        throw CLI::ValidationError("--leak-guard", "sdf-shadow needs the primitives of --sdf FILE");
+    if (options.masks.guard == LeakGuard::sdfShadow && options.method != Method::ddgi)
+        throw CLI::ValidationError("--leak-guard", "shadows of primitives are tested with --method ddgi only");
+    if (options.scene.probesHitMesh && options.scene.sdf.empty())
+        throw CLI::ValidationError("--probe-rays", "they hit the mesh anyway without --sdf FILE");
     if (options.masks.bakes() && options.scene.volumes.cascades > 0)
         throw CLI::ValidationError("--leak-guard", "masks are baked for probes that stand still, without --cascades");
     const bool glossy = options.glossy != Glossy::off && options.method != Method::reference && !options.diffuseOnly;
@@ -139,17 +180,25 @@ void checkOptions(const CLI::App& command, const RenderOptions& options) {
         throw CLI::ValidationError("--aov",
                                    "this picture has no glossy layer; it takes --glossy first or field, and "
                                    "neither --method reference nor --diffuse-only");
+    const bool contact = options.contact && options.method != Method::reference;
+    if ((options.aov == Aov::contact || options.aov == Aov::openness) && !contact)
+        throw CLI::ValidationError(
+            "--aov", "this picture has no contact layers; they take --contact on, and not --method reference");
     if (!options.debug.empty() && (options.method == Method::none || options.method == Method::reference))
         throw CLI::ValidationError("--debug", "--method none and reference have no probes to show");
     if (!options.debug.empty() && findDebugView(options.debug)->primitives && options.scene.sdf.empty())
         throw CLI::ValidationError("--debug", "sdf shows the primitives of --sdf FILE");
+    if (!options.field.empty() && (!hasProbes(options) || !options.animate.empty()))
+        throw CLI::ValidationError("--field",
+                                   "it has probes for --method ddgi and leaky, and --guide on, of a single picture");
     if (!options.budget.empty() && (!hasProbes(options) || (options.animate.empty() && !options.run.frames)))
         throw CLI::ValidationError("--budget", "it limits the real-time updates of probes: give --frames or --animate");
     if (options.method == Method::reference && options.backend.kind == BackendKind::vulkan)
         throw CLI::ValidationError("--backend", "--method reference is path traced on the CPU only");
 }
 
-Result<void> render(const RenderOptions& options) {
+Result<void> render(const RenderOptions& given) {
+    RenderOptions options = given;
     warnAboutUnusedOptions(options);
     if (!options.animate.empty()) return renderAnimation(options);
     Outputs outputs;
@@ -165,14 +214,20 @@ Result<void> render(const RenderOptions& options) {
     if (!context) return context.error();
     const auto backend = openBackend(*context, options.backend);
     if (!backend) return backend.error();
+    const auto saved = readSavedField(options);
+    if (!saved) return saved.error();
     const auto setup = loadSetup(options.scene);
     if (!setup) return setup.error();
     if (auto apart = outputs.keepApartFrom(setup->files); !apart) return apart;
+    if (*saved) {
+        if (auto apart = outputs.keepApartFrom({options.field}); !apart) return apart;
+        if (auto told = warnOfOtherScene(**saved, *setup, updatesSaved(options)); !told) return told;
+    }
     const auto tracer = (*backend)->openScene(*setup->scene, setup->pose);
     if (!tracer) return tracer.error();
     const auto primitives = openProbeTracer(**backend, *setup, setup->pose);
     if (!primitives) return primitives.error();
-    const Tracers tracers{**tracer, primitives->get()};
+    const Tracers tracers{**tracer, primitives->get(), *saved ? &**saved : nullptr};
 
     RenderStats stats;
     stats.sdf = setup->sdf;
@@ -197,9 +252,11 @@ Result<void> render(const RenderOptions& options) {
 }
 
 void addPictureOptions(CLI::App& command, RenderOptions& options) {
-    static const std::map<std::string, Aov> kAovs{
-        {"color", Aov::color}, {"irradiance", Aov::irradiance}, {"normal", Aov::normal},     {"albedo", Aov::albedo},
-        {"depth", Aov::depth}, {"direct", Aov::direct},         {"indirect", Aov::indirect}, {"glossy", Aov::glossy}};
+    static const std::map<std::string, Aov> kAovs{{"color", Aov::color},       {"irradiance", Aov::irradiance},
+                                                  {"normal", Aov::normal},     {"albedo", Aov::albedo},
+                                                  {"depth", Aov::depth},       {"direct", Aov::direct},
+                                                  {"indirect", Aov::indirect}, {"glossy", Aov::glossy},
+                                                  {"contact", Aov::contact},   {"openness", Aov::openness}};
     command
         .add_option(
             "-o,--output", options.output,
@@ -211,7 +268,7 @@ void addPictureOptions(CLI::App& command, RenderOptions& options) {
         ->check(parsedBy(parseSize))
         ->capture_default_str();
     command.add_option("--aov", options.aov, "write this layer instead of the picture")
-        ->type_name("irradiance|normal|albedo|depth|direct|indirect|glossy")
+        ->type_name("irradiance|normal|albedo|depth|direct|indirect|glossy|contact|openness")
         ->transform(oneOf(kAovs));
     std::vector<std::string> debugNames;
     std::string debugHelp = "a picture of what the probes do:";
@@ -238,6 +295,15 @@ void addPictureOptions(CLI::App& command, RenderOptions& options) {
                     "has them all")
         ->type_name("off|first|field")
         ->transform(oneOf(kGlossy));
+    static const std::map<std::string, bool> kContact{{"on", true}, {"off", false}};
+    command
+        .add_option("--contact", options.contact,
+                    "light and shadow of surfaces nearby, which are finer than the probes, from what the picture shows "
+                    "(default off); with --animate each picture goes on from the one before; --aov contact is the "
+                    "light that they send, --aov openness how far they leave a surface free; not for reference, "
+                    "which has all light")
+        ->type_name("on|off")
+        ->transform(oneOf(kContact));
     command.add_option("--stats", options.stats, "write probes, frames, times in ms and memory as JSON")
         ->type_name("FILE");
 }
@@ -270,39 +336,27 @@ void addAnimationOptions(CLI::App& command, RenderOptions& options) {
 }
 
 void addMethodOptions(CLI::App& command, RenderOptions& options) {
-    static const std::map<std::string, Method> kMethods{
-        {"none", Method::none}, {"leaky", Method::leaky}, {"ddgi", Method::ddgi}, {"reference", Method::reference}};
+    static const std::map<std::string, Method> kMethods{{"none", Method::none},
+                                                        {"leaky", Method::leaky},
+                                                        {"ddgi", Method::ddgi},
+                                                        {"sdfddgi", Method::sdfddgi},
+                                                        {"reference", Method::reference}};
     command
         .add_option("--method", options.method,
                     "indirect light: none, from probes without a visibility test (leaky), from probes with one (ddgi, "
-                    "the default), or all light path traced (reference)")
-        ->type_name("none|leaky|ddgi|reference")
+                    "the default), from probes that see the primitives of --sdf, and are seen past them (sdfddgi: ddgi "
+                    "with --leak-guard sdf-shadow --relocation on --contact on), or all light path traced (reference)")
+        ->type_name("none|leaky|ddgi|sdfddgi|reference")
         ->transform(oneOf(kMethods));
-    static const std::map<std::string, FieldRules> kRules{{"measured", FieldRules::measured},
-                                                          {"paper", FieldRules::paper}};
-    command
-        .add_option("--rules", options.rules,
-                    "the field's rules: those that measured closest to the path tracer (measured, the default), or "
-                    "exactly the DDGI paper's (paper)")
-        ->type_name("measured|paper")
-        ->transform(oneOf(kRules));
-    command.add_option("--rays", options.rays, "rays per probe and update, 8 to 4096")
-        ->type_name("N")
-        ->check(inRange(8, 4096))
-        ->capture_default_str();
-    static const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
-    command
-        .add_option("--relocation", options.relocation,
-                    "probes leave walls and keep a distance from surfaces (default off)")
-        ->type_name("on|off")
-        ->transform(oneOf(kOnOff));
-    command
-        .add_option("--probe-states", options.probeStates,
-                    "do not update probes in the open air and in walls, which no surface uses: a third faster in rooms "
-                    "(default off)")
-        ->type_name("on|off")
-        ->transform(oneOf(kOnOff));
+    addProbeOptions(command, options);
     addSdfOption(command, options.scene);
+    static const std::map<std::string, bool> kProbeRays{{"sdf", false}, {"mesh", true}};
+    command
+        .add_option("--probe-rays", options.scene.probesHitMesh,
+                    "what the rays of probes hit where there is --sdf: its primitives (default), or the scene's "
+                    "triangles, so that only --leak-guard sdf-shadow asks the primitives")
+        ->type_name("sdf|mesh")
+        ->transform(oneOf(kProbeRays));
     addMaskOptions(command, options.masks);
     addFieldRunOptions(command, options.run);
     command
@@ -313,6 +367,7 @@ void addMethodOptions(CLI::App& command, RenderOptions& options) {
             "(default: all probes in every update)")
         ->type_name("RAYS|MSms")
         ->check(parsedBy(parseBudget));
+    static const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
     command.add_option("--spp", options.samplesPerPixel, "reference: samples per pixel (default 64 without --time)")
         ->type_name("N")
         ->check(inRange(1, 1e6));
@@ -340,9 +395,11 @@ void addRenderCommand(CLI::App& app, int& exitCode) {
     addMethodOptions(*command, *options);
     addBackendOptions(*command, options->backend);
     addSceneOptions(*command, options->scene);
+    addFieldOption(*command, *options);
     addAnimationOptions(*command, *options);
     command->footer(kFooter);
     command->callback([options, command, &exitCode] {
+        applyPreset(*command, *options);
         checkOptions(*command, *options);
         if (const auto done = render(*options); !done) exitCode = printError(done.error());
     });

@@ -1,6 +1,9 @@
 #include "render_options.h"
 
+#include <map>
+
 #include "console/parse.h"
+#include "sdf_scene.h"
 
 namespace probegi::tool {
 
@@ -11,17 +14,45 @@ FieldSettings fieldSettings(const LoadedSetup& setup, Method method, FieldRules 
     return settings;
 }
 
+void addProbeOptions(CLI::App& command, RenderOptions& options) {
+    static const std::map<std::string, FieldRules> kRules{{"measured", FieldRules::measured},
+                                                          {"paper", FieldRules::paper}};
+    command
+        .add_option("--rules", options.rules,
+                    "the field's rules: those that measured closest to the path tracer (measured, the default), or "
+                    "exactly the DDGI paper's (paper)")
+        ->type_name("measured|paper")
+        ->transform(oneOf(kRules));
+    command.add_option("--rays", options.rays, "rays per probe and update, 8 to 4096")
+        ->type_name("N")
+        ->check(inRange(8, 4096))
+        ->capture_default_str();
+    static const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
+    command
+        .add_option("--relocation", options.relocation,
+                    "probes leave walls and keep a distance from surfaces (default off)")
+        ->type_name("on|off")
+        ->transform(oneOf(kOnOff));
+    command
+        .add_option("--probe-states", options.probeStates,
+                    "do not update probes in the open air and in walls, which no surface uses: a third faster in rooms "
+                    "(default off)")
+        ->type_name("on|off")
+        ->transform(oneOf(kOnOff));
+}
+
 bool hasProbes(const RenderOptions& options) {
     return options.method != Method::none && (options.method != Method::reference || options.guide);
 }
 
 PictureDesc pictureDesc(const RenderOptions& options, const LoadedSetup& setup) {
     const PictureSize size = *parseSize(options.size);
-    return {setup.camera, size.width, size.height, options.antialias, options.diffuseOnly, options.glossy};
+    return {setup.camera,        size.width,     size.height,    options.antialias,
+            options.diffuseOnly, options.glossy, options.contact};
 }
 
 Result<std::optional<Field>> makeEmptyField(const Backend& backend, const LoadedSetup& setup,
-                                            const RenderOptions& options) {
+                                            const RenderOptions& options, const ScenePose& pose) {
     if (!hasProbes(options)) return std::nullopt;
     FieldDesc desc;
     desc.volumes = setup.volumes;
@@ -30,7 +61,10 @@ Result<std::optional<Field>> makeEmptyField(const Backend& backend, const Loaded
     desc.rules = options.rules;
     desc.relocation = options.relocation;
     desc.probeStates = options.probeStates;
-    auto field = backend.makeField(desc, fieldSettings(setup, options.method, options.rules));
+    FieldSettings settings = fieldSettings(setup, options.method, options.rules);
+    if (options.masks.guard == LeakGuard::sdfShadow) settings.guard = LeakGuard::sdfShadow;
+    if (auto placed = placeGuard(settings, setup, pose); !placed) return placed.error();
+    auto field = backend.makeField(desc, settings);
     if (!field) return field.error();
     if (auto set = setBudget(*field, setup, options); !set) return set.error();
     return std::move(*field);

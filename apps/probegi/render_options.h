@@ -14,8 +14,8 @@
 
 namespace probegi::tool {
 
-/// Where indirect light comes from.
-enum class Method { none, leaky, ddgi, reference };
+/// Where indirect light comes from. `sdfddgi` stands for `ddgi` with other options until the command line is read.
+enum class Method { none, leaky, ddgi, sdfddgi, reference };
 
 inline constexpr int kDefaultReferenceSamples = 64;
 
@@ -34,6 +34,7 @@ struct RenderOptions {
     int antialias = 2;
     bool diffuseOnly = false;
     Glossy glossy = Glossy::off;
+    bool contact = false;
     bool filmic = false;
     std::uint64_t seed = 1;
     int rays = FieldDesc{}.raysPerProbe;
@@ -43,12 +44,16 @@ struct RenderOptions {
     bool guide = false;
     bool relocation = false, probeStates = false;
     MaskOptions masks;
+    std::string field;    ///< --field: a file with the probes; empty: they are filled
     std::string debug;    ///< name of a DebugView; empty: a picture
     std::string animate;  ///< empty: one picture
     std::optional<int> updatesPerFrame;
     bool events = true;  ///< --events
     std::string budget;  ///< --budget; empty: none
 };
+
+/// Adds --rules, --rays, --relocation and --probe-states.
+void addProbeOptions(CLI::App& command, RenderOptions& options);
 
 /// FieldSettings::visibilityExponent of --rules paper.
 inline constexpr float kPaperVisibilityExponent = 50;
@@ -61,9 +66,9 @@ bool hasProbes(const RenderOptions& options);
 
 PictureDesc pictureDesc(const RenderOptions& options, const LoadedSetup& setup);
 
-/// The field that the options ask for, still empty; none for methods without.
+/// The field that the options ask for, still empty; none for methods without. `pose`: the setup's, or one with more.
 Result<std::optional<Field>> makeEmptyField(const Backend& backend, const LoadedSetup& setup,
-                                            const RenderOptions& options);
+                                            const RenderOptions& options, const ScenePose& pose);
 
 /// Gives the field the budget that the options ask for, with the setup's camera as its view. Errors: those of
 /// FieldControl::setBudget.

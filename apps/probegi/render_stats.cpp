@@ -9,8 +9,6 @@
 
 namespace probegi::tool {
 
-namespace {
-
 nlohmann::ordered_json masksJson(const MaskReport& report) {
     return {{"seconds",
              {{"visibility", report.visibilitySeconds},
@@ -29,8 +27,6 @@ nlohmann::ordered_json masksJson(const MaskReport& report) {
             {"meanClusters", report.meanClusters},
             {"blindTexels", report.blindTexels}};
 }
-
-}  // namespace
 
 double median(std::vector<double> values) {
     if (values.empty()) return 0;
@@ -67,6 +63,7 @@ std::string statsJson(const RenderStats& stats) {
         {"pictureMs", stats.pictureMs}};
     if (stats.masks) json["masks"] = masksJson(*stats.masks);
     if (stats.glossyMs) json["glossyMs"] = *stats.glossyMs;
+    if (stats.contactMs) json["contactMs"] = *stats.contactMs;
     if (stats.sdf) {
         json["primitives"] = stats.sdf->primitives.size();
         json["primitiveBytes"] = sdfBytes(*stats.sdf);

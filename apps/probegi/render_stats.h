@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct RenderStats {
     double pictureMs = 0;
     std::optional<MaskReport> masks;  ///< only with --leak-guard masks
     std::optional<double> glossyMs;   ///< of that; only with --glossy
+    std::optional<double> contactMs;  ///< the same with --contact on
     std::optional<SdfScene> sdf;      ///< of --sdf
 };
 
@@ -26,8 +28,12 @@ struct RenderStats {
 /// converged (null with --frames and without a field),
 /// remaining (the estimate behind it, null if there is none), updateMs {trace, shade, blend, total} (medians per
 /// update, 0 without updates), pictureMs, with --leak-guard masks the members of MaskReport as
-/// masks {...}, with --glossy glossyMs, with --sdf primitives and primitiveBytes, peakMemoryBytes.
+/// masks {...}, with --glossy glossyMs, with --contact on contactMs, with --sdf primitives and primitiveBytes,
+/// peakMemoryBytes.
 std::string statsJson(const RenderStats& stats);
+
+/// The members of a bake's report.
+nlohmann::ordered_json masksJson(const MaskReport& report);
 
 /// 0 if there are no values.
 double median(std::vector<double> values);

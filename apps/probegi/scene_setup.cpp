@@ -133,6 +133,7 @@ Result<PlacedCamera> makeCamera(const SceneOptions& options, const ScenePose& po
 using Volumes = std::vector<VolumeDesc>;
 
 Result<Volumes> makeVolumes(const SceneOptions& options, const Scene& scene, const ScenePose& pose, glm::vec3 camera) {
+    if (!options.given.empty()) return options.given;
     if (options.volumes.cascades > 0) return cascadesAround(options.volumes, camera, pose.bounds);
     if (!options.volume.empty())
         return parseVolume(options.volume).transform([&](VolumeDesc grid) {

@@ -33,8 +33,10 @@ struct SceneOptions {
 
     std::string volume, probes;      ///< --volume, --probes
     VolumeOptions volumes;           ///< --cascades, --outside
+    std::vector<VolumeDesc> given;   ///< volumes of a field that was read, in place of all others; empty: none
     std::string exposure = "scene";  ///< --exposure
     std::string sdf;                 ///< --sdf; empty: none
+    bool probesHitMesh = false;      ///< --probe-rays mesh, whatever --sdf is
     ReadLimits limits;               ///< --unpack-limit
 };
 
@@ -56,7 +58,8 @@ struct LoadedSetup {
     std::vector<VolumeDesc> volumes;    ///< of the field, at least one
     FieldSettings settings;             ///< for it: what the options say
     VolumeDesc grid;                    ///< the first of the volumes
-    std::optional<SdfScene> sdf;        ///< --sdf: what probe rays hit instead of the triangles
+    std::optional<SdfScene> sdf;        ///< --sdf
+    bool probesHitSdf = false;          ///< probe rays hit that instead of the triangles
     float exposure = 1.0f;              ///< as requested, or as the scene suggests
     bool automaticExposure = false;     ///< choose it for the picture
     std::vector<std::string> warnings;  ///< by the reader, and about surfaces outside the grid; one sentence each

@@ -42,16 +42,25 @@ Result<void> readSdf(LoadedSetup& setup, const SceneOptions& options) {
     if (sdf->primitives.empty())
         printWarning(fmt::format("{} has no primitives: the rays of probes meet only the sky", options.sdf));
     setup.sdf = std::move(*sdf);
+    setup.probesHitSdf = !options.probesHitMesh;
     setup.files.emplace_back(options.sdf);
     return {};
 }
 
 Result<std::unique_ptr<MovableTracer>> openProbeTracer(const Backend& backend, const LoadedSetup& setup,
                                                        const ScenePose& pose) {
-    if (!setup.sdf) return std::unique_ptr<MovableTracer>();
+    if (!setup.probesHitSdf) return std::unique_ptr<MovableTracer>();
     auto tracer = backend.openSdf(*setup.sdf, *setup.scene, pose);
     if (!tracer) return fail(tracer.error().code, fmt::format("--sdf: {}", tracer.error().message));
     return tracer;
+}
+
+Result<void> placeGuard(FieldSettings& settings, const LoadedSetup& setup, const ScenePose& pose) {
+    if (settings.guard != LeakGuard::sdfShadow) return {};
+    auto placed = placeSdf(*setup.sdf, *setup.scene, pose);
+    if (!placed) return fail(placed.error().code, fmt::format("--sdf: {}", placed.error().message));
+    settings.blockers = std::move(*placed);
+    return {};
 }
 
 std::size_t sdfBytes(const SdfScene& sdf) {

@@ -25,6 +25,10 @@ Result<void> readSdf(LoadedSetup& setup, const SceneOptions& options);
 Result<std::unique_ptr<MovableTracer>> openProbeTracer(const Backend& backend, const LoadedSetup& setup,
                                                        const ScenePose& pose);
 
+/// Gives settings with LeakGuard::sdfShadow the primitives of --sdf, which must be there, in this pose; others stay.
+/// Errors: those of placeSdf.
+Result<void> placeGuard(FieldSettings& settings, const LoadedSetup& setup, const ScenePose& pose);
+
 /// Geometry of the primitives that a GPU's rays read, bytes.
 std::size_t sdfBytes(const SdfScene& sdf);
 

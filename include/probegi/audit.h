@@ -47,6 +47,7 @@ enum class LeakCause : std::uint8_t {
     thinWall,       ///< a wall too thin for what the probes remember of distances at their spacing
     gradient,       ///< how light changes along the normal is read from probes on both sides of what hides them
     blurredEdge,    ///< the probe looks along an edge, where the distances that it remembers scatter
+    sharedCluster,  ///< LeakGuard::masks: a cluster of probes, most of which the point sees, has the probe too
 };
 
 /// A place that leaks: leaking points beside each other, for one cause.

@@ -6,6 +6,7 @@
 #include "probegi/context.h"
 #include "probegi/edits.h"
 #include "probegi/field.h"
+#include "probegi/field_file.h"
 #include "probegi/image.h"
 #include "probegi/io.h"
 #include "probegi/masks.h"

@@ -174,6 +174,32 @@ TEST_F(Animate, StatsHaveTimesOfEachPicture) {
     EXPECT_GE(json["frames"][1]["edits"], 1);
 }
 
+TEST_F(Animate, MasksAreBakedAgainWhereThingsMove) {
+    good(arguments(
+        "1:3:1", file("m%d.exr"),
+        withProbes({"--leak-guard", "masks", "--mask-factor", "3", "--camera", "second", "--stats", file("s.json")}),
+        "builtin:door"));
+    const auto frames = nlohmann::json::parse(readText(file("s.json")))["frames"];
+    ASSERT_EQ(frames.size(), 3u);
+    EXPECT_GT(frames[1]["masksMs"], 1) << "the door has opened";
+    // With the masks of the open door the same moment is lit alike, however it came about.
+    const auto draw = [&](const char* times, const char* pattern) {
+        good(arguments(times, file(pattern),
+                       {"--leak-guard", "masks", "--mask-factor", "3", "--camera", "second", "--probes", "8x4x5",
+                        "--rays", "32", "--frames", "80", "--updates-per-frame", "240"},
+                       "builtin:door"));
+    };
+    draw("3:3:1", "open%d.exr");
+    draw("1:3:2", "kept%d.exr");
+    const auto light = [&](const char* name) {
+        double sum = 0;
+        for (const glm::vec3& pixel : pixels(name)) sum += double(pixel.x + pixel.y + pixel.z);
+        return sum;
+    };
+    EXPECT_GT(light("kept1.exr"), 1.02 * light("kept0.exr")) << "light comes through the door";
+    EXPECT_NEAR(light("kept1.exr"), light("open0.exr"), 0.1 * light("open0.exr"));
+}
+
 TEST_F(Animate, OfTheReference) {
     good(arguments("0:4:4", file("f%d.exr"), {"--method", "reference", "--spp", "2"}));
     EXPECT_EQ(m_folder.entries(), 2u);

@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <algorithm>
 
 #include <nlohmann/json.hpp>
 
@@ -67,6 +68,28 @@ TEST(Audit, IsTheSameTwiceAndOnAnyNumberOfThreads) {
     EXPECT_EQ(one.exitCode, 0) << one.err;
     EXPECT_THAT(one.out, HasSubstr("pairs of a point and a probe"));
     EXPECT_EQ(one.out, two.out);
+}
+
+TEST(Audit, MasksLeaveLessToFind) {
+    const TemporaryFolder folder;
+    const std::string json = folder.file("leaks.json");
+    const auto worst = [&](std::vector<std::string> more) {
+        more.insert(more.end(), {"--json", json});
+        EXPECT_EQ(runTool(audit(std::move(more))).exitCode, 0);
+        return double(readJson(json)["worst"]);
+    };
+    const double leaky = worst({"--method", "leaky"});
+    EXPECT_LT(worst({"--leak-guard", "masks"}), 0.5 * leaky);
+    EXPECT_LT(worst({"--leak-guard", "masks", "--mask-strict"}), 0.2 * leaky);
+    // One cluster is too few, and the audit says so.
+    worst({"--leak-guard", "masks", "--clusters", "1"});
+    const auto places = readJson(json)["places"];
+    const auto shared =
+        std::ranges::find_if(places, [](const auto& place) { return place["cause"] == "sharedCluster"; });
+    ASSERT_NE(shared, places.end());
+    EXPECT_THAT(std::string((*shared)["text"]["remedy"]), HasSubstr("more clusters"));
+    expectRefused(audit({"--leak-guard", "masks", "--method", "leaky"}), "--method ddgi only", 2);
+    expectRefused(audit({"--clusters", "3"}), "they act on --leak-guard masks only", 2);
 }
 
 TEST(Audit, WritesNothingElseToAStandardOutputThatTakesTheJson) {

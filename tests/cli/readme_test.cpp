@@ -29,10 +29,12 @@ std::vector<Words> commandsOfReadme() {
 Words quick(Words words) {
     const auto time = std::find(words.begin(), words.end(), "--time");
     const bool reference = time != words.end();
+    const bool baked = std::find(words.begin(), words.end(), "--field") != words.end();
     if (reference) *std::next(time) = "0.2";
     const std::map<std::string, Words> more{
-        {"render", reference ? Words{"--size", "32x18"}
-                             : Words{"--size", "32x18", "--probes", "4x4x4", "--rays", "32", "--frames", "2"}},
+        {"bake", {"--probes", "4x4x4", "--rays", "32", "--frames", "2", "--factor", "4"}},
+        {"render", reference || baked ? Words{"--size", "32x18"}
+                                      : Words{"--size", "32x18", "--probes", "4x4x4", "--rays", "32", "--frames", "2"}},
         {"audit",
          {"--size", "32x18", "--probes", "4x4x4", "--rays", "32", "--frames", "2", "--points", "256", "--truth-samples",
           "4"}},
@@ -75,7 +77,7 @@ TEST(Readme, EveryLineOfItsToolBlockWorks) {
                 EXPECT_TRUE(std::filesystem::exists(folder.file(firstFile(words[i + 1]))));
             }
     }
-    for (const char* command : {"scenes", "info", "render", "compare", "audit", "report", "bench", "devices"})
+    for (const char* command : {"scenes", "info", "render", "compare", "bake", "audit", "report", "bench", "devices"})
         EXPECT_GE(seen[command], 1) << command << " is not in the README";
 }
 

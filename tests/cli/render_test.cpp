@@ -226,6 +226,24 @@ TEST(Render, GlossyLightIsPartOfTheIndirectAndTimed) {
     EXPECT_GT(nlohmann::json::parse(readText(folder.file("s.json")))["glossyMs"], 0);
 }
 
+TEST(Render, ContactLightDarkensNooksAndIsTimed) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> desk{"--frames", "3", "--probes", "4x4x4"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), desk.begin(), desk.end());
+        return mean(render(more, "builtin:desk"));
+    };
+    const double off = with({"--aov", "irradiance"});
+    const double on = with({"--aov", "irradiance", "--contact", "on", "--stats", folder.file("s.json")});
+    EXPECT_LT(on, off);
+    EXPECT_GT(on, 0.8 * off);
+    EXPECT_GT(with({"--aov", "contact", "--contact", "on"}), 0.0);
+    const double open = with({"--aov", "openness", "--contact", "on"});
+    EXPECT_GT(open, 0.7);
+    EXPECT_LT(open, 0.99);
+    EXPECT_GT(nlohmann::json::parse(readText(folder.file("s.json")))["contactMs"], 0);
+}
+
 TEST(Render, ThreadsDoNotChangeThePictureAndSeedsDo) {
     const auto pixels = [](std::vector<std::string> options) { return render(quick(std::move(options))).pixels; };
     const auto one = pixels({"--threads", "1"});

@@ -86,6 +86,21 @@ TEST(Usage, ALayerOfGlossyLightTakesAPictureThatHasIt) {
     refused({"--glossy", "field", "--diffuse-only"});
 }
 
+TEST(Usage, LayersOfContactLightTakeAPictureThatHasThem) {
+    const TemporaryFolder folder;
+    for (const char* layer : {"contact", "openness"}) {
+        const std::vector<std::string> command{"render", "builtin:desk", "-o", folder.file("a.png"), "--aov", layer};
+        const auto refused = [&](std::vector<std::string> options) {
+            options.insert(options.begin(), command.begin(), command.end());
+            expectRefused(options, "--contact", 2);
+        };
+        refused({});
+        refused({"--contact", "off"});
+        refused({"--contact", "on", "--method", "reference"});
+        refused({"--contact", "maybe"});
+    }
+}
+
 TEST(Usage, MissingArgumentsAreNamed) {
     expectRefused({"render", "-o", "a.png"}, "SCENE", 2);
     expectRefused({"render", "builtin:cornell"}, "--output", 2);

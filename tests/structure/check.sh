@@ -28,13 +28,14 @@ declare -A below=(
     [bvh]="scene core kernels"
     [sdf]="scene core kernels"
     [field]="geometry scene core kernels"
+    [field_file]="io field sdf geometry scene core kernels"
     [mask]="field geometry scene core kernels"
     [cpu]="field sdf geometry scene core kernels"
     [vulkan]="bvh sdf field geometry scene core kernels"
     [reference]="field geometry scene core kernels"
     [render]="field geometry scene core kernels"
     [backend]=""
-    [measure]="field geometry scene core kernels"
+    [measure]="field sdf geometry scene core kernels"
 )
 
 # Prints "file folder" for each quoted include whose path begins with a folder name.

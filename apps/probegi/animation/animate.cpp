@@ -54,11 +54,13 @@ struct Animation {
     PictureSink& sink;
     WholeBar& bar;
     std::unique_ptr<PictureRenderer> renderer;
+    ContactHistory history{};  ///< --contact: from picture to picture
 
     int updatesPerFrame() const { return options.updatesPerFrame.value_or(kDefaultUpdatesPerFrame); }
 };
 
-Result<Picture> draw(Animation& animation, const RenderOptions& options) {
+// `history`: null for a picture by itself.
+Result<Picture> draw(Animation& animation, const RenderOptions& options, ContactHistory* history) {
     const Field* field = animation.scene.field();
     const Tracer& tracer = animation.scene.tracer();
     const LoadedSetup& setup = animation.scene.setup();
@@ -67,7 +69,9 @@ Result<Picture> draw(Animation& animation, const RenderOptions& options) {
         if (!drawn) return drawn.error();
         return std::move(drawn->picture);
     }
-    auto drawn = animation.renderer->render(tracer, setup.lighting, field, pictureDesc(options, setup));
+    PictureDesc desc = pictureDesc(options, setup);
+    desc.contactHistory = history;
+    auto drawn = animation.renderer->render(tracer, setup.lighting, field, desc);
     if (!drawn) return drawn.error();
     return std::move(drawn->picture);
 }
@@ -103,7 +107,7 @@ Result<float> sharedExposure(Animation& animation) {
         if (moment > 0)
             if (const auto moved = animation.scene.moveTo(animation.times.at(moment), kExposureUpdates); !moved)
                 return moved.error();
-        const auto picture = draw(animation, small);
+        const auto picture = draw(animation, small, nullptr);
         if (!picture) return picture.error();
         all.width = picture->color.width;
         all.height += picture->color.height;
@@ -126,7 +130,7 @@ Result<FrameStats> drawFrame(Animation& animation, int frame, const ToneMap& ton
     RenderOptions options = animation.options;
     options.seed += std::uint64_t(frame);  // of the reference's noise
     const auto start = Clock::now();
-    const auto picture = draw(animation, options);
+    const auto picture = draw(animation, options, &animation.history);
     if (!picture) return picture.error();
     stats.pictureMs = millisecondsSince(start);
     const auto drawn = Clock::now();
@@ -146,6 +150,7 @@ std::string animationJson(const Animation& animation, const FieldRun& fill, doub
                         {"poseMs", f.move.pose},
                         {"editsMs", f.move.edits},
                         {"edits", f.move.editsFound},
+                        {"masksMs", f.move.masks},
                         {"updatedProbes", mean(f.move.updated)},
                         {"updateMs", f.move.update},
                         {"pictureMs", f.pictureMs},
@@ -258,7 +263,7 @@ Result<void> renderAnimation(const RenderOptions& given) {
     if (auto apart = sink->keepApartFrom(setup->files); !apart) return apart;
     warnWhereNothingMoves(*setup->scene, *times);
     if (hasProbes(options)) warnWhereItLeavesTheGrid(*setup, *times);
-    auto scene = MovingScene::open(**backend, *setup, options);
+    auto scene = MovingScene::open(*context, **backend, *setup, options);
     if (!scene) return scene.error();
     auto renderer = (*backend)->makeRenderer();
     if (!renderer) return renderer.error();

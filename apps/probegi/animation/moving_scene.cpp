@@ -1,5 +1,6 @@
 #include "animation/moving_scene.h"
 
+#include <algorithm>
 #include <chrono>
 #include <glm/ext/matrix_transform.hpp>
 #include <vector>
@@ -35,6 +36,12 @@ ScenePose withHiddenAsSpecks(const Scene& scene, ScenePose pose) {
     return pose;
 }
 
+bool sameInstances(const std::vector<Instance>& a, const std::vector<Instance>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Instance& x, const Instance& y) {
+        return x.mesh == y.mesh && x.node == y.node && x.toWorld == y.toWorld;
+    });
+}
+
 double millisecondsSince(Clock::time_point& start) {
     const auto now = Clock::now();
     const double passed = std::chrono::duration<double, std::milli>(now - start).count();
@@ -54,8 +61,23 @@ Result<void> MovingScene::tellField() {
     return setBudget(*m_field, *m_setup, *m_options);
 }
 
-Result<MovingScene> MovingScene::open(const Backend& backend, LoadedSetup& setup, const RenderOptions& options) {
+Result<void> MovingScene::moveGuard(const ScenePose& pose) {
+    if (!m_field || m_field->control().settings().guard != LeakGuard::sdfShadow) return {};
+    FieldSettings settings = m_field->control().settings();
+    if (auto placed = placeGuard(settings, *m_setup, pose); !placed) return placed;
+    return m_field->control().setSettings(settings);
+}
+
+// Masks know geometry only, and only as it stands: where things move they are baked again, all of them.
+Result<void> MovingScene::bakeMasksHere() {
+    if (!m_field || !m_options->masks.bakes()) return {};
+    return bakeMasksFor(*m_field, *m_context, *m_tracer, *m_setup, m_options->masks);
+}
+
+Result<MovingScene> MovingScene::open(const Context& context, const Backend& backend, LoadedSetup& setup,
+                                      const RenderOptions& options) {
     MovingScene moving;
+    moving.m_context = &context;
     moving.m_setup = &setup;
     moving.m_options = &options;
     const ScenePose pose = withHiddenAsSpecks(*setup.scene, setup.pose);
@@ -65,7 +87,7 @@ Result<MovingScene> MovingScene::open(const Backend& backend, LoadedSetup& setup
     auto probeTracer = openProbeTracer(backend, setup, pose);
     if (!probeTracer) return probeTracer.error();
     moving.m_probeTracer = std::move(*probeTracer);
-    auto field = makeEmptyField(backend, setup, options);
+    auto field = makeEmptyField(backend, setup, options, pose);
     if (!field) return field.error();
     moving.m_field = std::move(*field);
     moving.watchFromHere();
@@ -75,6 +97,7 @@ Result<MovingScene> MovingScene::open(const Backend& backend, LoadedSetup& setup
 Result<FieldRun> MovingScene::fill() {
     if (!m_field) return FieldRun();
     if (auto told = tellField(); !told) return told.error();
+    if (auto baked = bakeMasksHere(); !baked) return baked.error();
     return runField(*m_field, probeTracer(), m_setup->lighting, m_options->run);
 }
 
@@ -85,6 +108,7 @@ void MovingScene::watchFromHere() {
 Result<MoveTimes> MovingScene::moveTo(double seconds, int updates) {
     MoveTimes times;
     auto start = Clock::now();
+    const std::vector<Instance> before = m_setup->pose.instances;
     if (auto moved = moveSetup(*m_setup, m_options->scene, float(seconds)); !moved) return moved.error();
     if (!m_setup->scene->animations.empty()) {
         const ScenePose pose = withHiddenAsSpecks(*m_setup->scene, m_setup->pose);
@@ -92,6 +116,7 @@ Result<MoveTimes> MovingScene::moveTo(double seconds, int updates) {
             if (!tracer) continue;
             if (auto moved = tracer->setPose(pose); !moved) return moved.error();
         }
+        if (auto moved = moveGuard(pose); !moved) return moved.error();
     }
     times.pose = millisecondsSince(start);
     if (m_watch) {
@@ -101,6 +126,9 @@ Result<MoveTimes> MovingScene::moveTo(double seconds, int updates) {
         times.editsFound = int(edits->size());
     }
     times.edits = millisecondsSince(start);
+    if (!sameInstances(before, m_setup->pose.instances))
+        if (auto baked = bakeMasksHere(); !baked) return baked.error();
+    times.masks = millisecondsSince(start);
     if (auto told = tellField(); !told) return told.error();
     for (int i = 0; m_field && i < updates; ++i) {
         times.updated.push_back(m_field->control().tasks().size());

@@ -12,6 +12,7 @@ namespace probegi::tool {
 struct MoveTimes {
     double pose = 0;    ///< the scene's and the tracer's
     double edits = 0;   ///< to find them
+    double masks = 0;   ///< to bake them again, where things moved
     double update = 0;  ///< all updates together
     int editsFound = 0;
     std::vector<std::size_t> updated{};  ///< probes of each update
@@ -21,9 +22,9 @@ struct MoveTimes {
 /// updated, and keeps what it knows.
 class MovingScene {
 public:
-    /// At the setup's pose, with a field that holds nothing yet. Backend, setup and options must outlive it.
-    /// Errors: those of the backend.
-    static Result<MovingScene> open(const Backend& backend, LoadedSetup& setup, const RenderOptions& options);
+    /// At the setup's pose, with a field that holds nothing yet. All must outlive it. Errors: those of the backend.
+    static Result<MovingScene> open(const Context& context, const Backend& backend, LoadedSetup& setup,
+                                    const RenderOptions& options);
 
     /// Fills the field for the scene as it is. Errors: those of runField().
     Result<FieldRun> fill();
@@ -39,9 +40,13 @@ public:
 private:
     MovingScene() = default;
     Result<void> tellField();
+    /// LeakGuard::sdfShadow.
+    Result<void> moveGuard(const ScenePose& pose);
+    Result<void> bakeMasksHere();
     /// What probe rays hit.
     const Tracer& probeTracer() const { return m_probeTracer ? *m_probeTracer : *m_tracer; }
 
+    const Context* m_context = nullptr;
     LoadedSetup* m_setup = nullptr;
     const RenderOptions* m_options = nullptr;
     std::unique_ptr<MovableTracer> m_tracer;

@@ -30,6 +30,7 @@ struct AuditOptions {
     FieldRunOptions run;
     Method method = Method::ddgi;
     FieldRules rules = FieldRules::measured;
+    MaskOptions masks;
     int rays = FieldDesc{}.raysPerProbe;
     std::uint64_t seed = 1;
     int points = AuditDesc{}.points;
@@ -51,7 +52,8 @@ With --max-leak the exit status is 1 if a place leaks more than that on average,
 Example: probegi audit builtin:dark-room --wall 0.02
 Example: probegi audit level.glb --sun 0.2,-0.9,0.3,20 --max-leak 2 --json leaks.json
 Example: probegi audit builtin:house --picture leaks.png --camera 1
-Example: probegi audit builtin:dark-room --method leaky      (the same probes without their leak guard))";
+Example: probegi audit builtin:dark-room --method leaky      (the same probes without their leak guard)
+Example: probegi audit builtin:house --leak-guard masks)";
 
 Result<Field> makeField(const Backend& backend, const LoadedSetup& setup, const AuditOptions& options) {
     FieldDesc desc;
@@ -134,6 +136,8 @@ Result<void> audit(const AuditOptions& options) {
     if (!tracer) return tracer.error();
     auto field = makeField(**backend, *setup, options);
     if (!field) return field.error();
+    if (options.masks.bakes())
+        if (auto baked = bakeMasksFor(*field, *context, **tracer, *setup, options.masks); !baked) return baked;
     if (const auto run = runField(*field, **tracer, setup->lighting, options.run); !run) return run.error();
 
     // The audit's own rays are traced on the CPU whatever the backend.
@@ -208,6 +212,7 @@ void addFieldOptions(CLI::App& command, AuditOptions& options) {
         ->type_name("N")
         ->check(inRange(8, 4096))
         ->capture_default_str();
+    addMaskOptions(command, options.masks);
     addFieldRunOptions(command, options.run);
     command.add_option("--seed", options.seed, "random seed of the field and the points")
         ->type_name("N")
@@ -227,6 +232,12 @@ void addAuditCommand(CLI::App& app, int& exitCode) {
     command->footer(kFooter);
     command->callback([options, command, &exitCode] {
         checkBackendOptions(*command, options->backend);
+        checkMaskOptions(options->masks);
+        if (options->masks.bakes() && options->method != Method::ddgi)
+            throw CLI::ValidationError("--leak-guard", "masks are looked up with --method ddgi only");
+        if (options->masks.bakes() && options->scene.volumes.cascades > 0)
+            throw CLI::ValidationError("--leak-guard",
+                                       "masks are baked for probes that stand still, without --cascades");
         if (const auto done = audit(*options); !done) exitCode = printError(done.error());
     });
 }

@@ -75,6 +75,8 @@ std::string whyOf(const LeakPlace& place) {
         case LeakCause::blurredEdge:
             return fmt::format(
                 "probes {} apart look along an edge there, and what they remember of distances is blurred", apart);
+        case LeakCause::sharedCluster:
+            return "its mask has one bit for a cluster of probes, of which it sees most, but not all";
     }
     return {};
 }
@@ -82,6 +84,9 @@ std::string whyOf(const LeakPlace& place) {
 std::string remedyOf(const LeakPlace& place) {
     std::vector<std::string> ways;
     if (place.cause == LeakCause::guardOff) ways.push_back("turn the leak guard on (--method ddgi)");
+    if (place.cause == LeakCause::sharedCluster)
+        ways.push_back(
+            "more clusters (--clusters 6 or 8), or masks that let no cluster pass as a whole (--mask-strict)");
     if (place.extend > 0) ways.push_back(fmt::format("let the probe volume reach {} farther", metres(place.extend)));
     if (place.move > 0)
         ways.push_back(
@@ -162,6 +167,8 @@ const char* nameOf(LeakCause cause) {
             return "gradient";
         case LeakCause::blurredEdge:
             return "blurredEdge";
+        case LeakCause::sharedCluster:
+            return "sharedCluster";
     }
     return "";
 }
