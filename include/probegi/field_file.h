@@ -38,7 +38,7 @@ struct FieldProvenance {
 
 /// What a file holds.
 struct SavedField {
-    FieldSnapshot snapshot{};      ///< of all probes, and what the field is made of
+    FieldSnapshot snapshot{};  ///< of all probes, and what the field is made of
     /// Masks included, whose report has no times. Primitives are not kept: LeakGuard::sdfShadow comes back as moments.
     FieldSettings settings{};
     FieldProvenance provenance{};  ///< all empty: not known

@@ -73,16 +73,17 @@ TEST(Audit, IsTheSameTwiceAndOnAnyNumberOfThreads) {
 TEST(Audit, MasksLeaveLessToFind) {
     const TemporaryFolder folder;
     const std::string json = folder.file("leaks.json");
-    const auto worst = [&](std::vector<std::string> more) {
+    // Points that see no probe go by the distances whatever the masks are: so not the worst place, but all of them.
+    const auto leakingArea = [&](std::vector<std::string> more) {
         more.insert(more.end(), {"--json", json});
         EXPECT_EQ(runTool(audit(std::move(more))).exitCode, 0);
-        return double(readJson(json)["worst"]);
+        return double(readJson(json)["leakingArea"]);
     };
-    const double leaky = worst({"--method", "leaky"});
-    EXPECT_LT(worst({"--leak-guard", "masks"}), 0.5 * leaky);
-    EXPECT_LT(worst({"--leak-guard", "masks", "--mask-strict"}), 0.2 * leaky);
+    const double leaky = leakingArea({"--method", "leaky"});
+    EXPECT_LT(leakingArea({"--leak-guard", "masks"}), 0.15 * leaky);
+    EXPECT_LT(leakingArea({"--leak-guard", "masks", "--mask-strict"}), 0.03 * leaky);
     // One cluster is too few, and the audit says so.
-    worst({"--leak-guard", "masks", "--clusters", "1"});
+    leakingArea({"--leak-guard", "masks", "--clusters", "1"});
     const auto places = readJson(json)["places"];
     const auto shared =
         std::ranges::find_if(places, [](const auto& place) { return place["cause"] == "sharedCluster"; });

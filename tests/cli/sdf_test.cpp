@@ -65,6 +65,47 @@ TEST_F(Sdf, isTheSameOnVulkan) {
     EXPECT_NEAR(ours.x / theirs.x, 1, 1e-4);
 }
 
+// The preset is its options, each of which may be given otherwise.
+TEST_F(Sdf, theMethodIsItsOptions) {
+    const std::vector<std::string> few{"--sdf", file(), "--probes", "6x6x6", "--frames", "4", "--rays", "32"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.end(), few.begin(), few.end());
+        return render(more).pixels;
+    };
+    const auto preset = with({"--method", "sdfddgi"});
+    EXPECT_EQ(preset, with({"--leak-guard", "sdf-shadow", "--relocation", "on", "--contact", "on"}));
+    EXPECT_EQ(with({"--method", "sdfddgi", "--leak-guard", "moments", "--relocation", "off", "--contact", "off"}),
+              with({}));
+    EXPECT_NE(with({"--leak-guard", "sdf-shadow"}), with({}));
+    EXPECT_NE(with({"--leak-guard", "sdf-shadow", "--probe-rays", "mesh"}), with({"--leak-guard", "sdf-shadow"}));
+}
+
+TEST_F(Sdf, whatNeedsPrimitivesSaysSo) {
+    const auto complaint = [&](const std::vector<std::string>& more) {
+        const ToolRun run = runTool(arguments(more));
+        EXPECT_NE(run.exitCode, 0);
+        return run.err;
+    };
+    EXPECT_THAT(complaint({"--method", "sdfddgi"}), HasSubstr("sdfddgi needs the primitives of --sdf FILE"));
+    EXPECT_THAT(complaint({"--leak-guard", "sdf-shadow"}), HasSubstr("needs the primitives of --sdf FILE"));
+    EXPECT_THAT(complaint({"--sdf", file(), "--leak-guard", "sdf-shadow", "--method", "leaky"}),
+                HasSubstr("with --method ddgi only"));
+    EXPECT_THAT(complaint({"--probe-rays", "mesh"}), HasSubstr("without --sdf FILE"));
+}
+
+TEST_F(Sdf, animationsSayWhenNoPrimitiveMoves) {
+    const auto warning = [&](const std::string& primitives) {
+        writeText(file("m.sdf.json"), primitives);
+        const ToolRun run =
+            runTool({"render", "builtin:moving", "-o", file("m%d.exr"), "--animate", "0:1:1", "--size", "16x9", "--sdf",
+                     file("m.sdf.json"), "--probes", "3x3x3", "--rays", "16", "--frames", "1"});
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        return run.err;
+    };
+    const std::string ground = R"({"sdf": 1, "primitives": [{"shape": "plane", "centre": [0, 0, 0]}]})";
+    EXPECT_THAT(warning(ground), HasSubstr("all that moves stays where it was fitted"));
+}
+
 TEST_F(Sdf, statsSayHowManyAndHowLarge) {
     const ToolRun run =
         runTool(arguments({"--sdf", file(), "--frames", "1", "--probes", "3x3x3", "--stats", file("s.json")}));

@@ -192,6 +192,13 @@ void warnWhereNothingMoves(const Scene& scene, const FrameTimes& times) {
                         first, last));
 }
 
+void warnWhereNoPrimitiveMoves(const LoadedSetup& setup) {
+    if (!setup.sdf || setup.sdf->primitives.empty() || setup.scene->animations.empty()) return;
+    for (const SdfPrimitive& primitive : setup.sdf->primitives)
+        if (!primitive.node.empty()) return;
+    printWarning("no primitive of --sdf has a \"node\": for the probes, all that moves stays where it was fitted");
+}
+
 // The grid was laid over the scene as it is at first.
 void warnWhereItLeavesTheGrid(const LoadedSetup& setup, const FrameTimes& times) {
     if (!gridWarnings(setup, setup.pose.bounds).empty()) return;  // told already
@@ -263,6 +270,7 @@ Result<void> renderAnimation(const RenderOptions& given) {
     if (auto apart = sink->keepApartFrom(setup->files); !apart) return apart;
     warnWhereNothingMoves(*setup->scene, *times);
     if (hasProbes(options)) warnWhereItLeavesTheGrid(*setup, *times);
+    if (hasProbes(options)) warnWhereNoPrimitiveMoves(*setup);
     auto scene = MovingScene::open(*context, **backend, *setup, options);
     if (!scene) return scene.error();
     auto renderer = (*backend)->makeRenderer();
