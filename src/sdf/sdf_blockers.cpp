@@ -1,11 +1,9 @@
 #include "sdf/sdf_blockers.h"
 
-#include <array>
-#include <cmath>
 #include <glm/common.hpp>
-#include <glm/gtc/quaternion.hpp>
+#include <new>
+#include <utility>
 
-#include "core/first_error.h"
 #include "sdf/placed_primitives.h"
 
 namespace probegi {
