@@ -1,8 +1,13 @@
 # One static library per folder of src/, so that dependencies point one way: a layer links only the layers it names.
 
 add_library(probegi_options INTERFACE)
-# Otherwise Highway would compile for AVX-512 twice, with and without instructions that nothing here uses.
-target_compile_definitions(probegi_options INTERFACE HWY_DISABLED_TARGETS=HWY_AVX3_DL)
+# Otherwise Highway would compile for AVX-512 twice, with and without instructions that nothing here uses. With
+# sanitizers, whose code takes minutes to compile, it leaves out AVX-512: the source is the same for all.
+if(PROBEGI_SANITIZE)
+    target_compile_definitions(probegi_options INTERFACE "HWY_DISABLED_TARGETS=(HWY_AVX3|HWY_AVX3_DL)")
+else()
+    target_compile_definitions(probegi_options INTERFACE HWY_DISABLED_TARGETS=HWY_AVX3_DL)
+endif()
 if(NOT MSVC)
     target_compile_options(probegi_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
 endif()

@@ -25,9 +25,11 @@ if(NOT software_driver_file)
     describe_driver(software_driver_file software /usr/lib/*/libvulkan_lvp.so /usr/lib64/libvulkan_lvp.so)
 endif()
 # Environment of every test, including those of the tool and the examples. Without such a driver, the system's choice.
+set(software_driver "")
 set(on_software "")
 if(software_driver_file)
-    set(on_software ENVIRONMENT VK_DRIVER_FILES=${software_driver_file})
+    set(software_driver VK_DRIVER_FILES=${software_driver_file})
+    set(on_software ENVIRONMENT ${software_driver})
 endif()
 
 # The system's GPUs: whether any can be used, and whether all of them have ray query.
@@ -60,9 +62,7 @@ set(tests_of_ray_query "*RayQuery*:*rayQuery*")
 
 # on_driver(NAME PREFIX FILTER ENVIRONMENT) registers the tests of test_NAME again.
 function(on_driver name prefix filter environment)
-    gtest_discover_tests(test_${name} TEST_PREFIX ${prefix}.${name}. TEST_FILTER "${filter}"
-        TEST_LIST test_${name}_${prefix} DISCOVERY_TIMEOUT 60
-        PROPERTIES TIMEOUT 600 ENVIRONMENT "${environment}" LABELS ${prefix})
+    probegi_suites(test_${name} ${prefix}.${name} "${filter}" ${prefix} "${environment}")
 endfunction()
 
 # probegi_vulkan_test(NAME [LIBRARIES ...] [LABELS ...]): probegi_test() with testDevice() of support/vulkan_device.h, on
@@ -72,11 +72,11 @@ function(probegi_vulkan_test name)
     probegi_test(${name} LIBRARIES Vulkan::Vulkan ${ARG_LIBRARIES} LABELS vulkan ${ARG_LABELS})
     target_sources(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support/vulkan_device.cpp)
     if(older_driver_file)
-        on_driver(${name} mesa22 "-${tests_of_ray_query}:${tests_without_device}" VK_DRIVER_FILES=${older_driver_file})
+        on_driver(${name} mesa22 "*-${tests_of_ray_query}:${tests_without_device}" VK_DRIVER_FILES=${older_driver_file})
     endif()
     if(gpu_answers AND gpu_without_ray_query)
-        on_driver(${name} gpu "-${tests_of_ray_query}:${tests_without_device}" ${gpu_environment})
+        on_driver(${name} gpu "*-${tests_of_ray_query}:${tests_without_device}" ${gpu_environment})
     elseif(gpu_answers)
-        on_driver(${name} gpu "-${tests_without_device}" ${gpu_environment})
+        on_driver(${name} gpu "*-${tests_without_device}" ${gpu_environment})
     endif()
 endfunction()

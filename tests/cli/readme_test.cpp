@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "cli/tool.h"
+#include "support/source_folder.h"
 
 // The README's block of commands, run line by line in one folder. To be fast, options are added at the end of each
 // line, and the reference's time is shortened; nothing else is changed.
@@ -15,7 +16,7 @@ namespace {
 using Words = std::vector<std::string>;
 
 std::vector<Words> commandsOfReadme() {
-    std::ifstream readme(PROBEGI_SOURCE_DIR "/README.md");
+    std::ifstream readme(sourceFolder() / "README.md");
     const std::string mark = "    probegi ";
     std::vector<Words> commands;
     for (std::string line; std::getline(readme, line);) {

@@ -11,6 +11,7 @@
 
 #include "kernels_gpu/case.h"
 #include "kernels_gpu/vulkan_runner.h"
+#include "support/source_folder.h"
 
 namespace probegi::test {
 namespace {
@@ -95,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(, EveryKernel, testing::ValuesIn(kernelCases().begin(),
 /// Of src/kernels and its folders.
 std::vector<std::filesystem::path> kernelHeaders() {
     std::vector<std::filesystem::path> headers;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(PROBEGI_SOURCE_DIR "/src/kernels"))
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(sourceFolder() / "src/kernels"))
         if (entry.path().extension() == ".h") headers.push_back(entry.path());
     return headers;
 }
@@ -119,7 +120,7 @@ TEST(KernelHeaders, eachFunctionIsCalledByItsShader) {
     int functions = 0;
     for (const std::filesystem::path& path : kernelHeaders()) {
         const std::string name = path.stem().string(), header = readText(path);
-        const std::string shader = readText(PROBEGI_SOURCE_DIR "/tests/kernels_gpu/shaders/" + name + ".comp");
+        const std::string shader = readText(sourceFolder() / "tests/kernels_gpu/shaders" / (name + ".comp"));
         for (std::sregex_iterator it(header.begin(), header.end(), function), end; it != end; ++it, ++functions) {
             EXPECT_THAT(shader, testing::HasSubstr((*it)[1].str() + "(")) << name << ".comp leaves it untested";
         }
