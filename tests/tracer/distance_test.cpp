@@ -111,8 +111,9 @@ TEST_P(TracerDistance, NearAndFarLimitTheRay) {
     s.add(quad(), glm::translate(glm::mat4(1.0f), glm::vec3(0, -1, 0)));
     const auto tracer = trace(GetParam(), s);
     const auto at = [&](float near, float far) { return shoot(*tracer, {{0.1f, 1, 0.2f}, near, {0, -1, 0}, far}); };
-    EXPECT_EQ(at(0.0f, 1e30f).hit.distance, 1.0f);
-    EXPECT_EQ(at(1.5f, 1e30f).hit.distance, 2.0f);
+    // Not the same to the bit: Embree divides by approximate reciprocals, which processors compute differently.
+    EXPECT_FLOAT_EQ(at(0.0f, 1e30f).hit.distance, 1.0f);
+    EXPECT_FLOAT_EQ(at(1.5f, 1e30f).hit.distance, 2.0f);
     EXPECT_FALSE(at(2.5f, 1e30f).hit.valid());
     EXPECT_FALSE(at(2.5f, 1e30f).blocked);
     EXPECT_FALSE(at(0.0f, 0.5f).hit.valid());
