@@ -185,11 +185,23 @@ HWY_INLINE std::int32_t laneOf(const Int& x, std::size_t lane) {
     return value;
 }
 /// The values at base[index] of each lane.
-HWY_INLINE Real gather(const float* base, const Int& index) {
-    return Real(hn::GatherIndex(kReals, base, index.lanes));
-}
 HWY_INLINE Int gather(const std::int32_t* base, const Int& index) {
+#if HWY_TARGET == HWY_AVX2
+    // One by one, since AMD's processors take longer for the instruction: docs/performance.md.
+    alignas(sizeof(Int)) std::int32_t at[kLanes];
+    hn::Store(index.lanes, kInts, at);
+    return Int(IntVector{_mm256_setr_epi32(base[at[0]], base[at[1]], base[at[2]], base[at[3]], base[at[4]], base[at[5]],
+                                           base[at[6]], base[at[7]])});
+#else
     return Int(hn::GatherIndex(kInts, base, index.lanes));
+#endif
+}
+HWY_INLINE Real gather(const float* base, const Int& index) {
+#if HWY_TARGET == HWY_AVX2
+    return Real(hn::BitCast(kReals, gather(reinterpret_cast<const std::int32_t*>(base), index).lanes));
+#else
+    return Real(hn::GatherIndex(kReals, base, index.lanes));
+#endif
 }
 
 // Of a kernel's numbers that are no lanes.
