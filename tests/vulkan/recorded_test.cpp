@@ -4,6 +4,7 @@
 #include <random>
 
 #include "probegi/masks.h"
+#include "probegi/sdf.h"
 #include "support/field_setup.h"
 #include "vulkan/engine.h"
 #include "vulkan/hooks.h"
@@ -55,6 +56,18 @@ protected:
         ASSERT_GT(brightest, 0.0f);
         for (std::size_t i = 0; i < wanted.size(); ++i)
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[i][c], wanted[i][c], relative * brightest) << i;
+    }
+    // Points at which the CPU finds something else after one update.
+    int differing(const EngineBuffer& got, const FieldSetup& setup) const {
+        Field field = *Field::create(log, setup, setup);
+        field.update(rays).value();
+        std::vector<glm::vec3> wanted(queries.size());
+        field.irradiance(queries, wanted).value();
+        const std::vector<glm::vec3> values = valuesOf(got);
+        int differ = 0;
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+            differ += std::abs(values[i].y - wanted[i].y) > 0.01f * wanted[i].y + 1e-4f ? 1 : 0;
+        return differ;
     }
     static std::vector<glm::vec3> valuesOf(const EngineBuffer& buffer) {
         const auto values = buffer.as<glm::vec3>();
@@ -472,17 +485,6 @@ TEST_F(VulkanRecorded, masksAreLookedUp) {
         volume.recordSettings(commands).value();
         volume.recordQuery(commands, questions.address, of[3].address, count()).value();
     });
-    const auto differing = [&](const EngineBuffer& got, const FieldSetup& setup) {
-        Field field = *Field::create(log, setup, setup);
-        field.update(rays).value();
-        std::vector<glm::vec3> wanted(queries.size());
-        field.irradiance(queries, wanted).value();
-        const std::vector<glm::vec3> values = valuesOf(got);
-        int differ = 0;
-        for (std::size_t i = 0; i < wanted.size(); ++i)
-            differ += std::abs(values[i].y - wanted[i].y) > 0.01f * wanted[i].y + 1e-4f ? 1 : 0;
-        return differ;
-    };
     // At a wall, rounding decides the side of a point.
     EXPECT_LE(differing(of[0], few), 2);
     EXPECT_LE(differing(of[1], more), 2);
@@ -498,6 +500,46 @@ TEST_F(VulkanRecorded, masksAreLookedUp) {
     engine.run([&](VkCommandBuffer commands) {
         EXPECT_EQ(volume.recordScroll(commands, 0, {1, 0, 0}).error().code, ErrorCode::invalidArgument);
     });
+}
+
+// A wall that moves between passes, asked by the library and by shaders of the engine, of which one does not read it.
+TEST_F(VulkanRecorded, primitivesShadow) {
+    const vulkan::Device device = adopt();
+    const auto walled = [&](float x) {
+        SdfScene sdf;
+        SdfPrimitive wall;
+        wall.centre = world.pose.bounds.lower + glm::vec3(x, 0.5f, 0.5f) * world.pose.bounds.size();
+        wall.halfSize = {0.01f, 9, 9};
+        sdf.primitives = {wall};
+        FieldSetup setup = world.desc;
+        setup.guard = LeakGuard::sdfShadow;
+        setup.blockers = placeSdf(sdf, world.scene, world.pose).value();
+        return setup;
+    };
+    const FieldSetup left = walled(0.4f), right = walled(0.7f);
+    FieldSetup byMoments = world.desc;
+    byMoments.guard = LeakGuard::moments;
+    GpuField volume = *GpuField::create(device, left, left);
+    const EngineBuffer first = answers(), second = answers(), byShader = answers(), withoutIt = answers();
+    QueryShader shader(engine, PROBEGI_QUERY_MASKS_SPIRV, questions, byShader),
+        blind(engine, PROBEGI_QUERY_SPIRV, questions, withoutIt);
+    for (const QueryShader* each : {&shader, &blind})
+        volume.writeQueryBindings(each->volumeSet(), QueryShader::kFirstBinding);
+    engine.run([&](VkCommandBuffer commands) {
+        volume.recordClear(commands).value();
+        volume.recordUpdate(commands, rayBuffer.range()).value();
+        volume.recordQuery(commands, questions.address, first.address, count()).value();
+        volume.control().setSettings(right).value();
+        volume.recordQuery(commands, questions.address, second.address, count()).value();
+        shader.record(commands, count());
+        blind.record(commands, count());
+    });
+    EXPECT_LE(differing(first, left), 2);
+    EXPECT_LE(differing(second, right), 2);
+    EXPECT_LE(differing(byShader, right), 2);
+    EXPECT_GT(differing(second, left), 20) << "the wall is where it was put last";
+    EXPECT_LE(differing(withoutIt, byMoments), 2);
+    EXPECT_GT(differing(withoutIt, right), 20);
 }
 
 TEST_F(VulkanRecorded, anUploadAfterItsStagingIsGoneIsRefused) {
