@@ -94,7 +94,7 @@ public:
     /// First the bounces, one an update, then an average in linear light, which is unbiased: what is estimated is the
     /// share of light that further bounces would add, and one and a half standard errors of the noise. The scene's and
     /// the grid's own errors are not in it. Not counted: probes in walls, and those with less than 1e-4 of the mean
-    /// light; noise of those below 1e-2 counts as if they had that much.
+    /// light; noise of those below 1e-2 counts as if they had that much. A last update lets update() go on from it.
     /// `tolerance` > 0, maxFrames >= 1; `onUpdate`, where given, receives the times of every update. The field's events
     /// and hysteresis are ignored. Errors: cancelled, invalidArgument, outOfMemory, and those of the tracer.
     Result<ConvergeResult> converge(const Tracer& tracer, const Lighting& lighting, float tolerance = 0.03f,

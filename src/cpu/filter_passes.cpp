@@ -86,9 +86,11 @@ std::span<ProbeStep> TemporalFilter::chooseWindows(const Context& context, const
             const kernels::LagAround around = lagAround(volumes[task.volume], m_lags, int(task.slot));
             const float lag = kernels::filterLag(around, filter.noise, filter.window, frame.fixedDirections.empty());
             const float own = kernels::ownLag(around, filter.noise, filter.window, frame.fixedDirections.empty());
-            filter.window = kernels::nextWindow(filter.window, filter.noise, lag, frame.longestWindow);
-            filter.visibilityWindow =
-                kernels::nextVisibilityWindow(filter.visibilityWindow, around.distance, frame.longestVisibilityWindow);
+            if (!frame.settles) {
+                filter.window = kernels::nextWindow(filter.window, filter.noise, lag, frame.longestWindow);
+                filter.visibilityWindow = kernels::nextVisibilityWindow(filter.visibilityWindow, around.distance,
+                                                                        frame.longestVisibilityWindow);
+            }
             m_steps[i] = {{kernels::keptBy(filter.window), kernels::keptBy(filter.visibilityWindow)}, lag, 0.0f, own};
             if (frame.hasEvents()) limitWindows(frame.limitOf(task), filter, m_steps[i].hysteresis);
             packed.words[5] = kernels::packWindows(filter.window, filter.visibilityWindow);
@@ -121,8 +123,8 @@ void TemporalFilter::advance(const Context& context, const UpdateFrame& frame, s
             const ProbeTask& task = frame.tasks[i];
             kernels::ProbeFilter filter = kernels::unpackFilter(storage.filters[task.slot]);
             const ProbeStep& step = m_steps[i];
-            filter.noise =
-                kernels::nextNoise(filter.noise, step.change, step.lag, filter.window, kernels::isUnknown(filter));
+            filter.noise = kernels::nextNoise(filter.noise, step.change, step.lag, filter.window,
+                                              !frame.settles && kernels::isUnknown(filter));
             kernels::advanceFilter(filter, m_sights[i]);
             if (frame.reportsProgress)
                 m_progress[task.slot] = kernels::probeProgress(step.ownLag, filter, storage.backfaceShare[task.slot]);

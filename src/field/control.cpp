@@ -188,6 +188,14 @@ UpdateFrame FieldControl::Impl::comingAverage(FrameHysteresis kept) const noexce
     return coming;
 }
 
+UpdateFrame FieldControl::Impl::comingSettled() const noexcept {
+    UpdateFrame coming = comingUpdate();
+    coming.events = {};
+    coming.limits = {};
+    coming.settles = coming.windows;
+    return coming;
+}
+
 void FieldControl::Impl::setAveraging(bool isAverage) {
     averaging = isAverage;
     turnRays();

@@ -36,6 +36,8 @@ public:
 
     int updates() const noexcept { return m_now.updates; }
     bool converged() const noexcept { return m_now.converged; }
+    /// Whether the probes hold an average.
+    bool averages() const noexcept { return m_now.averaged > 1; }
     /// Largest estimate of a region's remaining relative error; infinite while unknown.
     float remaining() const noexcept { return m_now.remaining; }
 

@@ -108,20 +108,31 @@ struct Field::Impl {
         ConvergeState* state;  // null: not asked for
     };
 
-    // The convergence's words after the number of the frame whose rays are still in use.
-    void keep(const Convergence& convergence, ConvergeState* state) {
+    // The convergence's words, then the number of the frame whose rays are still in use and whether settle() is done.
+    void keep(const Convergence& convergence, ConvergeState* state, bool settled = false) {
         if (!state) return;
         convergence.save(state->words);
         state->words.push_back(std::uint32_t(books().rayFrame));
+        state->words.push_back(settled ? 1 : 0);
     }
-    Result<void> goOn(const ConvergeState* state, Convergence& convergence) {
-        if (!state || state->empty()) return {};
+    // Returns whether settle() is done.
+    Result<bool> goOn(const ConvergeState* state, Convergence& convergence) {
+        if (!state || state->empty()) return false;
         const std::span<const std::uint32_t> words = state->words;
-        const int rayFrame = int(words.back());
-        if (rayFrame < 0 || rayFrame > books().frame || !convergence.restore(words.first(words.size() - 1)))
+        const int rayFrame = words.size() < 2 ? -1 : int(words[words.size() - 2]);
+        if (rayFrame < 0 || rayFrame > books().frame || !convergence.restore(words.first(words.size() - 2)))
             return fail(ErrorCode::invalidArgument,
                         "the state to converge from is not one of this field's; begin with an empty one");
         books().turnRaysAt(rayFrame);
+        return words.back() != 0;
+    }
+
+    // One more update of the average, so that update() goes on from it. Without, it would begin a noisy one of its own.
+    Result<void> settle(const Convergence& convergence, const Tracer& tracer, const Lighting& lighting) {
+        const UpdateFrame frame = books().comingSettled();
+        if (!frame.settles || !convergence.averages()) return {};
+        auto times = ended(frame.reportsProgress, backend->update(frame, tracer, lighting));
+        if (!times) return times.error();
         return {};
     }
 
@@ -132,7 +143,8 @@ struct Field::Impl {
         if (auto ready = prepare(tracer); !ready) return ready.error();
         Convergence convergence(books().desc, books().volumes, call.tolerance, call.maxFrames);
         const Averaging averaging(books());
-        if (auto restored = goOn(call.state, convergence); !restored) return restored.error();
+        auto settled = goOn(call.state, convergence);
+        if (!settled) return settled.error();
         bool goesOn = convergence.updates() == 0 || progress.advance(convergence.updates());
         while (goesOn && convergence.updates() < call.maxFrames && !convergence.converged()) {
             const auto times = backend->update(books().comingAverage(convergence.kept()), tracer, lighting);
@@ -140,11 +152,16 @@ struct Field::Impl {
             const auto observed = observe(convergence);
             books().advance(convergence.turnsRays());
             if (!observed) return observed.error();
+            *settled = false;
             keep(convergence, call.state);
             if (call.onUpdate) call.onUpdate(*times);
             goesOn = progress.advance();
         }
         if (!goesOn) return fail(ErrorCode::cancelled, "cancelled while converging probes");
+        if (!*settled) {
+            if (auto done = settle(convergence, tracer, lighting); !done) return done.error();
+            keep(convergence, call.state, true);
+        }
         return ConvergeResult{convergence.updates(), convergence.converged(), convergence.remaining()};
     }
 

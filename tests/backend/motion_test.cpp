@@ -141,6 +141,35 @@ std::vector<double> lightOf(const Field& field, std::span<const int> probes) {
     return light;
 }
 
+// As an engine that loads baked light, or converges once, and then updates it frame by frame.
+TEST_P(BackendMotion, updatesGoOnFromWhatConverged) {
+    const auto scene = makeBuiltinScene("cornell");
+    ASSERT_TRUE(scene);
+    const ScenePose pose = poseAt(*scene);
+    FieldSetup desc;
+    desc.volumes = {*placeVolume(pose.bounds, {.targetProbes = 64})};
+    const Lighting lighting{pose.lights, scene->sky};
+    const auto tracer = makeTracer(*scene, pose);
+    Field field = makeField(desc);
+    ASSERT_TRUE(field.converge(*tracer, lighting));
+    const std::vector<int> probes = openProbes(field);
+    ASSERT_GT(probes.size(), 8u);
+    const std::vector<double> converged = lightOf(field, probes);
+    const auto difference = [&] {
+        const std::vector<double> now = lightOf(field, probes);
+        double square = 0, mean = 0;
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            square += (now[i] - converged[i]) * (now[i] - converged[i]);
+            mean += converged[i];
+        }
+        return std::sqrt(square * double(now.size())) / mean;
+    };
+    for (int frame = 0; frame < 8; ++frame) {
+        ASSERT_TRUE(field.update(*tracer, lighting));
+        EXPECT_LT(difference(), 0.05) << "update " << frame;
+    }
+}
+
 // The sun moves by an hour or two, and other patches of the walls send its light on. Measured: 0.06 left after three
 // updates, 0.015 after six, less than 0.01 from the eighth on.
 TEST_P(BackendMotion, aJumpOfTheSunIsFollowedInSixUpdates) {

@@ -92,6 +92,7 @@ struct FilterPush {
     float longestVisibilityWindow;
     uint ditherSeed;
     int forget;      // 1: probe_filter.comp only writes forgottenFilter()
+    int settles;     // 1: windows stay as they are (UpdateFrame::settles)
     uvec2 progress;  // out: ProbeProgress[slot] of the tasks, for a schedule; 0: nobody asks
 };
 KERNEL_CONST int kOwnRaysPacked = 2;
@@ -293,7 +294,7 @@ static_assert(sizeof(WeightsPush) == 60 && sizeof(SolidPush) == 16 && sizeof(Ble
               sizeof(TracePush) == 76);
 static_assert(sizeof(QueryPush) == 20 && sizeof(RaysPush) == 32 && sizeof(PicturePush) == 120 &&
               sizeof(ContactBlock) == 104);
-static_assert(sizeof(TasksPush) == 24 && sizeof(FilterPush) == 84 && sizeof(EventPush) == 56 &&
+static_assert(sizeof(TasksPush) == 24 && sizeof(FilterPush) == 88 && sizeof(EventPush) == 56 &&
               sizeof(EventRegion) == 32 && sizeof(GpuProbeStep) == 84);
 static_assert(sizeof(ToneMapPush) == 36 && sizeof(GpuSurface) == 76);
 }  // namespace probegi::kernels

@@ -472,6 +472,7 @@ kernels::FilterPush FieldPasses::filterPush(const UpdateFrame& frame, const RayA
             .longestVisibilityWindow = frame.longestVisibilityWindow,
             .ditherSeed = frame.ditherSeed,
             .forget = frame.windows ? 0 : 1,
+            .settles = frame.settles ? 1 : 0,
             .progress = frame.reportsProgress ? packAddress(m_progress.address()) : kernels::uvec2(0)};
 }
 

@@ -29,8 +29,8 @@ void main() {
     const uint number = uint(probeNumber(probegiField.volumes[task.volume], int(probe)));
     ProbeFilter probeFilter = unpackFilter(ProbeFilters(push.filters).at[probe]);
     const float lag = ProbeSteps(push.steps).at[probe].lagShare;
-    probeFilter.noise =
-        nextNoise(probeFilter.noise, changeOf(index, tasks), lag, probeFilter.window, isUnknown(probeFilter));
+    probeFilter.noise = nextNoise(probeFilter.noise, changeOf(index, tasks), lag, probeFilter.window,
+                                  push.settles == 0 && isUnknown(probeFilter));
     advanceFilter(probeFilter, ProbeSteps(push.steps).at[probe].sight);
     ProbeFilters(push.filters).at[probe] = packFilter(probeFilter, storageDither(push.ditherSeed, number));
     if (push.progress != uvec2(0u))

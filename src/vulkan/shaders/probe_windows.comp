@@ -36,9 +36,11 @@ void main() {
     const LagAround around = lagAround(volume, probeCell(volume, int(probe)));
     const float lag = filterLag(around, probeFilter.noise, probeFilter.window, push.ownRays != 0);
     ProbeSteps(push.steps).at[probe].ownLag = ownLag(around, probeFilter.noise, probeFilter.window, push.ownRays != 0);
-    probeFilter.window = nextWindow(probeFilter.window, probeFilter.noise, lag, push.longestWindow);
-    probeFilter.visibilityWindow =
-        nextVisibilityWindow(probeFilter.visibilityWindow, around.distance, push.longestVisibilityWindow);
+    if (push.settles == 0) {
+        probeFilter.window = nextWindow(probeFilter.window, probeFilter.noise, lag, push.longestWindow);
+        probeFilter.visibilityWindow =
+            nextVisibilityWindow(probeFilter.visibilityWindow, around.distance, push.longestVisibilityWindow);
+    }
     ProbeFilters(push.filters).at[probe].words[5] = packWindows(probeFilter.window, probeFilter.visibilityWindow);
     ProbeSteps(push.steps).at[probe].lagShare = lag;
     ProbeSteps(push.steps).at[probe].irradianceKept = keptBy(probeFilter.window);
