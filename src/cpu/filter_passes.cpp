@@ -86,12 +86,13 @@ std::span<ProbeStep> TemporalFilter::chooseWindows(const Context& context, const
             const kernels::LagAround around = lagAround(volumes[task.volume], m_lags, int(task.slot));
             const float lag = kernels::filterLag(around, filter.noise, filter.window, frame.fixedDirections.empty());
             const float own = kernels::ownLag(around, filter.noise, filter.window, frame.fixedDirections.empty());
+            m_steps[i] = {{1.0f, 1.0f}, lag, 0.0f, own};
             if (!frame.settles) {
                 filter.window = kernels::nextWindow(filter.window, filter.noise, lag, frame.longestWindow);
                 filter.visibilityWindow = kernels::nextVisibilityWindow(filter.visibilityWindow, around.distance,
                                                                         frame.longestVisibilityWindow);
+                m_steps[i].hysteresis = {kernels::keptBy(filter.window), kernels::keptBy(filter.visibilityWindow)};
             }
-            m_steps[i] = {{kernels::keptBy(filter.window), kernels::keptBy(filter.visibilityWindow)}, lag, 0.0f, own};
             if (frame.hasEvents()) limitWindows(frame.limitOf(task), filter, m_steps[i].hysteresis);
             packed.words[5] = kernels::packWindows(filter.window, filter.visibilityWindow);
         }

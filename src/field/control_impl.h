@@ -26,9 +26,9 @@ struct FieldControl::Impl {
     UpdateFrame comingUpdateWithoutFixedRays() const noexcept;
     /// The coming update as part of an average in linear space, of whose old values `kept` survive.
     UpdateFrame comingAverage(FrameHysteresis kept) const noexcept;
-    /// The coming update as the last of an average: later ones go on from there, at the pace that the average had.
-    /// Their windows need to know what its fixed rays see and how much its light scatters. Has windows unless the rules
-    /// have none.
+    /// The coming update as one that only looks, after an average: later ones go on from there, at the pace that the
+    /// average had. They need to know what its fixed rays see and how much its light scatters. Settles nothing if the
+    /// rules have no windows.
     UpdateFrame comingSettled() const noexcept;
     /// Whether the coming updates are part of an average. Their rays are turned, not shifted: an average follows
     /// bounces with one and the same set, which is best as it was published.

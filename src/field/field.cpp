@@ -127,7 +127,7 @@ struct Field::Impl {
         return words.back() != 0;
     }
 
-    // One more update of the average, so that update() goes on from it. Without, it would begin a noisy one of its own.
+    // An update that only looks, so that update() goes on from the average and does not begin a noisy one of its own.
     Result<void> settle(const Convergence& convergence, const Tracer& tracer, const Lighting& lighting) {
         const UpdateFrame frame = books().comingSettled();
         if (!frame.settles || !convergence.averages()) return {};

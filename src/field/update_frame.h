@@ -24,7 +24,7 @@ struct UpdateFrame {
     bool reportsProgress = false;                   ///< FieldBackend::progress() is asked for, where there are windows
     bool linear = false;                            ///< kernels::blendLinear instead of blendEncoded
     bool windows = false;  ///< each probe at the rate of its own window, in place of `hysteresis`; linear is true then
-    bool settles = false;  ///< windows stay as the average before left them, and what is seen now is known from here on
+    bool settles = false;  ///< probes and windows stay as an average left them, and what is seen is known from here on
     std::span<const glm::vec3> fixedDirections{};  ///< unit; of the rays that measure lag. Empty: none
     float longestWindow = 1;                       ///< updates, of irradiance
     float longestVisibilityWindow = 1;             ///< updates, of distance moments

@@ -141,19 +141,20 @@ std::vector<double> lightOf(const Field& field, std::span<const int> probes) {
     return light;
 }
 
-// As an engine that loads baked light, or converges once, and then updates it frame by frame.
+// As an engine that loads baked light, or converges once, and then updates it frame by frame. Measured: 0.011; an
+// average of its own begins with 0.027.
 TEST_P(BackendMotion, updatesGoOnFromWhatConverged) {
-    const auto scene = makeBuiltinScene("cornell");
+    const auto scene = makeBuiltinScene("atrium");
     ASSERT_TRUE(scene);
     const ScenePose pose = poseAt(*scene);
     FieldSetup desc;
-    desc.volumes = {*placeVolume(pose.bounds, {.targetProbes = 64})};
+    desc.volumes = {*placeVolume(pose.bounds, {.targetProbes = 100})};
     const Lighting lighting{pose.lights, scene->sky};
     const auto tracer = makeTracer(*scene, pose);
     Field field = makeField(desc);
     ASSERT_TRUE(field.converge(*tracer, lighting));
     const std::vector<int> probes = openProbes(field);
-    ASSERT_GT(probes.size(), 8u);
+    ASSERT_GT(probes.size(), 30u);
     const std::vector<double> converged = lightOf(field, probes);
     const auto difference = [&] {
         const std::vector<double> now = lightOf(field, probes);
@@ -166,7 +167,7 @@ TEST_P(BackendMotion, updatesGoOnFromWhatConverged) {
     };
     for (int frame = 0; frame < 8; ++frame) {
         ASSERT_TRUE(field.update(*tracer, lighting));
-        EXPECT_LT(difference(), 0.05) << "update " << frame;
+        EXPECT_LT(difference(), 0.016) << "update " << frame;
     }
 }
 

@@ -92,7 +92,7 @@ struct FilterPush {
     float longestVisibilityWindow;
     uint ditherSeed;
     int forget;      // 1: probe_filter.comp only writes forgottenFilter()
-    int settles;     // 1: windows stay as they are (UpdateFrame::settles)
+    int settles;     // 1: probes and windows stay as they are (UpdateFrame::settles)
     uvec2 progress;  // out: ProbeProgress[slot] of the tasks, for a schedule; 0: nobody asks
 };
 KERNEL_CONST int kOwnRaysPacked = 2;

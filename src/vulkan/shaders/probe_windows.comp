@@ -43,6 +43,7 @@ void main() {
     }
     ProbeFilters(push.filters).at[probe].words[5] = packWindows(probeFilter.window, probeFilter.visibilityWindow);
     ProbeSteps(push.steps).at[probe].lagShare = lag;
-    ProbeSteps(push.steps).at[probe].irradianceKept = keptBy(probeFilter.window);
-    ProbeSteps(push.steps).at[probe].visibilityKept = keptBy(probeFilter.visibilityWindow);
+    const bool settles = push.settles != 0;
+    ProbeSteps(push.steps).at[probe].irradianceKept = settles ? 1.0 : keptBy(probeFilter.window);
+    ProbeSteps(push.steps).at[probe].visibilityKept = settles ? 1.0 : keptBy(probeFilter.visibilityWindow);
 }
