@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "commands.h"
 #include "console/output.h"
@@ -19,7 +20,7 @@ struct CompareOptions {
     std::string test, reference;
     std::string heatmap;
     bool json = false;
-    float exposure = 1.0f;
+    std::optional<float> exposure;  ///< --exposure; none: 1
     ReadLimits limits;
 };
 
@@ -58,6 +59,8 @@ Result<void> compareFieldsOf(const CompareOptions& options) {
                 fmt::format("'{}' is no field, and the other one is; compare two fields or two pictures", file));
     if (!options.heatmap.empty())
         return fail(ErrorCode::invalidArgument, "--heatmap shows where pictures differ; fields have none");
+    if (options.exposure)
+        return fail(ErrorCode::invalidArgument, "--exposure acts on pictures; fields are compared as they are");
     return compareFieldFiles(options.test, options.reference, options.json, options.limits);
 }
 
@@ -77,7 +80,7 @@ Result<void> compare(const CompareOptions& options) {
             ErrorCode::invalidArgument,
             fmt::format("'{}' is {}x{} and '{}' is {}x{}; pictures must be of one size to be compared", options.test,
                         test->width, test->height, options.reference, reference->width, reference->height));
-    const auto comparison = compareImages(*test, *reference, ToneMap{options.exposure, false});
+    const auto comparison = compareImages(*test, *reference, ToneMap{options.exposure.value_or(1.0f), false});
     if (!comparison) return comparison.error();
     if (writesMap) {
         const HdrImage map = linearFromDisplay(heatmap(comparison->flipMap));
@@ -105,11 +108,12 @@ void addCompareCommand(CLI::App& app, int& exitCode) {
     command->add_flag(
         "--json", options->json,
         "print JSON with the keys rmse, relmse, scaledRelmse, flip and ratio; of fields probes, mean, rms, ratio, "
-        "worst, worstSlot, equalMaps, equalStates and equalMasks");
-    command->add_option("--exposure", options->exposure, "factor on the light before display values are compared")
+        "worst, worstSlot, equalMaps, equalStates, equalMasks and equalSettings");
+    command
+        ->add_option("--exposure", options->exposure,
+                     "factor on the light before display values are compared (default 1)")
         ->type_name("FACTOR")
-        ->check(inRange(1e-9, 1e9))
-        ->capture_default_str();
+        ->check(inRange(1e-9, 1e9));
     addUnpackLimit(*command, options->limits);
     command->footer(
         "Example: probegi compare field.exr reference.exr --heatmap difference.png\n"

@@ -8,21 +8,16 @@
 
 #include "console/output.h"
 #include "console/terminal.h"
+#include "console/vector_json.h"
 #include "probegi/measure.h"
 #include "render_stats.h"
+#include "saved_field.h"
 
 namespace probegi::tool {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json toJson(glm::vec3 v) {
-    return {v.x, v.y, v.z};
-}
-Json toJson(glm::ivec3 v) {
-    return {v.x, v.y, v.z};
-}
 
 const char* guardName(LeakGuard guard) {
     if (guard == LeakGuard::none) return "none";
@@ -68,7 +63,6 @@ Json describe(const std::string& path, const SavedField& saved) {
               {"unfinished", !saved.convergence.empty()}};
     if (const auto& masks = saved.settings.masks) {
         json["masks"] = masksJson(masks->report());
-        json["masks"].erase("seconds");
         json["masks"]["clusters"] = masks->clusters();
         json["masks"]["factor"] = masks->factor();
     }
@@ -78,10 +72,6 @@ Json describe(const std::string& path, const SavedField& saved) {
 std::string orUnknown(const Json& text) {
     const std::string plain = plainText(text.get<std::string>(), 4 * kShownName);
     return plain.empty() ? "unknown" : plain;
-}
-
-std::string vectorText(const Json& v) {
-    return fmt::format("({:.5g}, {:.5g}, {:.5g})", v[0].get<float>(), v[1].get<float>(), v[2].get<float>());
 }
 
 void printText(const Json& info, const SavedField& saved) {
@@ -145,6 +135,8 @@ Result<void> compareFieldFiles(const std::string& a, const std::string& b, bool 
     const auto d = compareFields(x->snapshot, y->snapshot);
     if (!d) return fail(d.error().code, fmt::format("'{}' and '{}': {}", a, b, d.error().message));
     const bool masks = equalMasks(*x, *y);
+    const bool settings = x->settings.guard == y->settings.guard &&
+                          sameSettings(x->snapshot.desc, x->settings, y->snapshot.desc, y->settings);
     if (json) {
         fmt::print("{}",
                    jsonText({{"probes", d->probes},
@@ -155,7 +147,8 @@ Result<void> compareFieldFiles(const std::string& a, const std::string& b, bool 
                              {"worstSlot", d->worstSlot},
                              {"equalMaps", d->equalMaps},
                              {"equalStates", d->equalStates},
-                             {"equalMasks", masks}}));
+                             {"equalMasks", masks},
+                             {"equalSettings", settings}}));
         return {};
     }
     fmt::print("probes  {:<10} that both fields use\n", d->probes);
@@ -168,13 +161,14 @@ Result<void> compareFieldFiles(const std::string& a, const std::string& b, bool 
             "rms     {:.6f}   root mean square difference of irradiance, over B's mean\n"
             "worst   {:.6f}   largest difference of a probe's light, over its light in B (slot {})\n",
             d->mean, d->ratio.low, d->ratio.median, d->ratio.high, d->rms, d->worst, d->worstSlot);
-    fmt::print("bits    {}; masks {}\n",
+    fmt::print("bits    {}; masks {}; settings {}\n",
                d->equalStates ? "the same"
                : d->equalMaps ? "the same maps, other states"
                               : "others",
                !x->settings.masks && !y->settings.masks ? "in neither"
                : masks                                  ? "the same"
-                                                        : "others");
+                                                        : "others",
+               settings ? "the same" : "others");
     return {};
 }
 

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "console/output.h"
+#include "console/vector_json.h"
 #include "field_text.h"
 #include "scene_setup.h"
 
@@ -14,10 +15,6 @@ namespace probegi::tool {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json toJson(glm::vec3 v) {
-    return {v.x, v.y, v.z};
-}
 
 const char* typeName(LightType type) {
     if (type == LightType::directional) return "directional";
@@ -92,10 +89,6 @@ Json describe(const SceneOptions& options, const LoadedScene& loaded) {
         {"animation", animationSpan(scene)},
         {"grid", gridOf(scene, pose)},
         {"warnings", loaded.warnings}};
-}
-
-std::string vectorText(const Json& v) {
-    return fmt::format("({:.5g}, {:.5g}, {:.5g})", v[0].get<float>(), v[1].get<float>(), v[2].get<float>());
 }
 
 void printLights(const Json& info) {

@@ -15,19 +15,22 @@ constexpr int kStrictClusters = 6;
 
 }  // namespace
 
-void addMaskOptions(CLI::App& command, MaskOptions& options, bool shortNames) {
+void addMaskOptions(CLI::App& command, MaskOptions& options, MaskOptionsOf offered) {
     constexpr const char* kGroup = "Masks";
-    static const std::map<std::string, LeakGuard> kGuards{
-        {"moments", LeakGuard::moments}, {"masks", LeakGuard::masks}, {"sdf-shadow", LeakGuard::sdfShadow}};
+    const bool shortNames = offered.shortNames;
+    std::map<std::string, LeakGuard> guards{{"moments", LeakGuard::moments}, {"masks", LeakGuard::masks}};
+    if (offered.sdfShadow) guards.emplace("sdf-shadow", LeakGuard::sdfShadow);
     command
         .add_option("--leak-guard", options.guard,
                     fmt::format("which probes a point may use, with --method ddgi: by the distances that they store "
-                                "(moments), by visibility that is baked first, with --animate again for each "
-                                "picture in which things have moved (masks), or by the shadows of the primitives of "
-                                "--sdf between points and probes (sdf-shadow) (default {})",
+                                "(moments), by visibility that is baked first{} (default {})",
+                                offered.sdfShadow
+                                    ? ", with --animate again for each picture in which things have moved (masks), or "
+                                      "by the shadows of the primitives of --sdf between points and probes (sdf-shadow)"
+                                    : " (masks)",
                                 options.bakes() ? "masks" : "moments"))
-        ->type_name("moments|masks|sdf-shadow")
-        ->transform(oneOf(kGuards))
+        ->type_name(offered.sdfShadow ? "moments|masks|sdf-shadow" : "moments|masks")
+        ->transform(oneOf(guards))
         ->group(kGroup);
     command
         .add_option("--clusters", options.clusters,
@@ -51,9 +54,13 @@ void addMaskOptions(CLI::App& command, MaskOptions& options, bool shortNames) {
         ->group(kGroup);
 }
 
-void checkMaskOptions(const MaskOptions& options) {
+void checkMaskOptions(const MaskOptions& options, const VolumeOptions& volumes) {
     if (!options.bakes() && (options.clusters || options.factor || options.strict))
         throw CLI::ValidationError("--clusters, --mask-factor, --mask-strict", "they act on --leak-guard masks only");
+    if (options.bakes() && volumes.cascades > 0)
+        throw CLI::ValidationError("--leak-guard",
+                                   "masks are baked for probes that stand still, without --cascades; with them give "
+                                   "--leak-guard moments");
 }
 
 MaskDesc maskDesc(const MaskOptions& options, std::uint64_t seed) {

@@ -17,11 +17,16 @@ struct MaskOptions {
     bool bakes() const noexcept { return guard == LeakGuard::masks; }
 };
 
-/// `shortNames`: --factor and --strict too, for a command that is about masks.
-void addMaskOptions(CLI::App& command, MaskOptions& options, bool shortNames = false);
+/// What a command makes of them.
+struct MaskOptionsOf {
+    bool shortNames = false;  ///< --factor and --strict too, for a command that is about masks
+    bool sdfShadow = false;   ///< it has the primitives for --leak-guard sdf-shadow
+};
+void addMaskOptions(CLI::App& command, MaskOptions& options, MaskOptionsOf offered = {});
 
-/// Throws CLI::ValidationError where masks are not looked up, but options for them were given.
-void checkMaskOptions(const MaskOptions& options);
+/// Throws CLI::ValidationError where masks are not looked up, but options for them were given, and where they are to be
+/// baked for cascades.
+void checkMaskOptions(const MaskOptions& options, const VolumeOptions& volumes);
 
 /// How masks will be baked.
 MaskDesc maskDesc(const MaskOptions& options, std::uint64_t seed);

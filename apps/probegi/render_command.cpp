@@ -39,6 +39,7 @@ Example: probegi render sponza.glb -o seams.png --camera nave --sky 0.3,0.4,0.6 
 Example: probegi render builtin:house -o house.png --sdf house.sdf.json
 Example: probegi render builtin:house -o house.png --sdf house.sdf.json --method sdfddgi
 Example: probegi render builtin:house -o house.png --field house.field
+Example: probegi render builtin:house -o house.png --field house.field --sdf house.sdf.json --leak-guard sdf-shadow
 Example: probegi render builtin:house -o truth.png --method reference --time 30
 Example: probegi render builtin:door -o door%03d.png --animate 0:4:0.1 --camera second
 Example: probegi render builtin:moving -o moving.mp4 --animate 0:4:0.04 --camera tracking
@@ -137,6 +138,8 @@ void warnAboutUnusedOptions(const RenderOptions& options) {
     if (options.glossy != Glossy::off && (reference || options.diffuseOnly))
         printWarning("--glossy does nothing with --method reference and with --diffuse-only");
     if (options.contact && reference) printWarning("--contact does nothing with --method reference");
+    if (!options.debug.empty() && (options.glossy != Glossy::off || options.contact))
+        printWarning("--glossy and --contact do nothing with --debug");
     const bool probes = hasProbes(options);
     if (!probes && (options.run.frames || options.run.tolerance))
         printWarning("--frames and --tolerance act on --method ddgi and leaky, and on --guide on, only");
@@ -164,7 +167,7 @@ void applyPreset(const CLI::App& command, RenderOptions& options) {
 
 void checkOptions(const CLI::App& command, const RenderOptions& options) {
     checkBackendOptions(command, options.backend);
-    checkMaskOptions(options.masks);
+    checkMaskOptions(options.masks, options.scene.volumes);
     if (options.masks.bakes() && options.method != Method::ddgi)
         throw CLI::ValidationError("--leak-guard", "masks are looked up with --method ddgi only");
     if (options.masks.guard == LeakGuard::sdfShadow && options.scene.sdf.empty())
@@ -173,8 +176,6 @@ void checkOptions(const CLI::App& command, const RenderOptions& options) {
         throw CLI::ValidationError("--leak-guard", "shadows of primitives are tested with --method ddgi only");
     if (options.scene.probesHitMesh && options.scene.sdf.empty())
         throw CLI::ValidationError("--probe-rays", "they hit the mesh anyway without --sdf FILE");
-    if (options.masks.bakes() && options.scene.volumes.cascades > 0)
-        throw CLI::ValidationError("--leak-guard", "masks are baked for probes that stand still, without --cascades");
     const bool glossy = options.glossy != Glossy::off && options.method != Method::reference && !options.diffuseOnly;
     if (options.aov == Aov::glossy && !glossy)
         throw CLI::ValidationError("--aov",
@@ -191,6 +192,12 @@ void checkOptions(const CLI::App& command, const RenderOptions& options) {
     if (!options.field.empty() && (!hasProbes(options) || !options.animate.empty()))
         throw CLI::ValidationError("--field",
                                    "it has probes for --method ddgi and leaky, and --guide on, of a single picture");
+    // Of --method sdfddgi or by itself.
+    if (!options.field.empty() && options.masks.guard != LeakGuard::sdfShadow &&
+        command.get_option("--leak-guard")->count() > 0)
+        throw CLI::ValidationError("--leak-guard",
+                                   "the file of --field says whether it is moments or masks; with it give sdf-shadow "
+                                   "and --sdf, --method leaky, or nothing");
     if (!options.budget.empty() && (!hasProbes(options) || (options.animate.empty() && !options.run.frames)))
         throw CLI::ValidationError("--budget", "it limits the real-time updates of probes: give --frames or --animate");
     if (options.method == Method::reference && options.backend.kind == BackendKind::vulkan)
@@ -357,7 +364,7 @@ void addMethodOptions(CLI::App& command, RenderOptions& options) {
                     "triangles, so that only --leak-guard sdf-shadow asks the primitives")
         ->type_name("sdf|mesh")
         ->transform(oneOf(kProbeRays));
-    addMaskOptions(command, options.masks);
+    addMaskOptions(command, options.masks, {.sdfShadow = true});
     addFieldRunOptions(command, options.run);
     command
         .add_option(

@@ -10,22 +10,25 @@
 namespace probegi::tool {
 
 nlohmann::ordered_json masksJson(const MaskReport& report) {
-    return {{"seconds",
-             {{"visibility", report.visibilitySeconds},
-              {"clusters", report.clusterSeconds},
-              {"masks", report.maskSeconds},
-              {"compression", report.compressSeconds}}},
-            {"rays", report.rays},
-            {"cells", report.cells},
-            {"blockedCells", report.blocked},
-            {"cubes", report.cubes},
-            {"denseBytes", report.denseBytes},
-            {"bytes", report.bytes},
-            {"startLoss", report.startLoss},
-            {"loss", report.loss},
-            {"residual", report.residual},
-            {"meanClusters", report.meanClusters},
-            {"blindTexels", report.blindTexels}};
+    nlohmann::ordered_json json;
+    // Files keep no times.
+    if (report.visibilitySeconds + report.clusterSeconds + report.maskSeconds + report.compressSeconds > 0)
+        json["seconds"] = {{"visibility", report.visibilitySeconds},
+                           {"clusters", report.clusterSeconds},
+                           {"masks", report.maskSeconds},
+                           {"compression", report.compressSeconds}};
+    json.update({{"rays", report.rays},
+                 {"cells", report.cells},
+                 {"blockedCells", report.blocked},
+                 {"cubes", report.cubes},
+                 {"denseBytes", report.denseBytes},
+                 {"bytes", report.bytes},
+                 {"startLoss", report.startLoss},
+                 {"loss", report.loss},
+                 {"residual", report.residual},
+                 {"meanClusters", report.meanClusters},
+                 {"blindTexels", report.blindTexels}});
+    return json;
 }
 
 double median(std::vector<double> values) {

@@ -32,7 +32,7 @@ struct RenderStats {
 /// peakMemoryBytes.
 std::string statsJson(const RenderStats& stats);
 
-/// The members of a bake's report.
+/// The members of a bake's report; seconds {...} only of masks that this run has baked.
 nlohmann::ordered_json masksJson(const MaskReport& report);
 
 /// 0 if there are no values.

@@ -6,6 +6,13 @@ namespace probegi::tool {
 
 namespace {
 
+bool sameDesc(const FieldDesc& a, const FieldDesc& b) {
+    return a.volumes == b.volumes && a.raysPerProbe == b.raysPerProbe && a.fixedRays == b.fixedRays &&
+           a.irradianceTexels == b.irradianceTexels && a.visibilityTexels == b.visibilityTexels && a.rules == b.rules &&
+           a.emitterSamples == b.emitterSamples && a.relocation == b.relocation && a.probeStates == b.probeStates &&
+           a.seed == b.seed;
+}
+
 VolumeDesc standing(const FieldSnapshot& snapshot, std::size_t volume) {
     VolumeDesc v = snapshot.desc.volumes[volume];
     v.origin += v.orientation * (glm::vec3(snapshot.scrolled[volume]) * v.spacing);
@@ -14,15 +21,21 @@ VolumeDesc standing(const FieldSnapshot& snapshot, std::size_t volume) {
 
 }  // namespace
 
+bool sameSettings(const FieldDesc& aDesc, FieldSettings a, const FieldDesc& bDesc, const FieldSettings& b) {
+    a.guard = b.guard, a.masks = b.masks;
+    return sameDesc(aDesc, bDesc) && a == b;
+}
+
 void addFieldOption(CLI::App& command, RenderOptions& options) {
     auto* field = command
                       .add_option("--field", options.field,
-                                  "probes from a file of 'probegi bake', masks included, in place of filling them; "
+                                  "probes from a file of 'probegi bake', masks included, in place of filling them; its "
+                                  "leak guard stays, but for --leak-guard sdf-shadow; "
                                   "with --frames or --tolerance they are updated from there")
                       ->type_name("FILE")
                       ->group("Probes");
     for (const char* other : {"--probes", "--volume", "--cascades", "--outside", "--rules", "--rays", "--relocation",
-                              "--probe-states", "--leak-guard", "--clusters", "--mask-factor", "--mask-strict"})
+                              "--probe-states", "--clusters", "--mask-factor", "--mask-strict"})
         field->excludes(command.get_option(other));
 }
 

@@ -5,6 +5,9 @@
 
 namespace probegi::tool {
 
+/// Whether two fields are made and updated alike: all of their desc, and all settings but guard and masks.
+bool sameSettings(const FieldDesc& aDesc, FieldSettings a, const FieldDesc& bDesc, const FieldSettings& b);
+
 /// --field: excludes all options that say how probes are made. Call it when these are there.
 void addFieldOption(CLI::App& command, RenderOptions& options);
 

@@ -40,7 +40,9 @@ Result<void> readSdf(LoadedSetup& setup, const SceneOptions& options) {
     auto sdf = loadSdfOf(*setup.scene, options.sdf, options.limits);
     if (!sdf) return sdf.error();
     if (sdf->primitives.empty())
-        printWarning(fmt::format("{} has no primitives: the rays of probes meet only the sky", options.sdf));
+        printWarning(
+            fmt::format("{} has no primitives: {}", options.sdf,
+                        options.probesHitMesh ? "they shade nothing" : "the rays of probes meet only the sky"));
     setup.sdf = std::move(*sdf);
     setup.probesHitSdf = !options.probesHitMesh;
     setup.files.emplace_back(options.sdf);

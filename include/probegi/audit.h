@@ -114,8 +114,8 @@ PROBEGI_API Result<std::vector<LeakPoint>> leaksAt(const Context& context, const
 
 /// Looks for leaks all over a scene, and for each place that leaks says why and what would help. `field` should be
 /// filled; one that is empty is black, and does not leak. The same for the same scene, field and seed, whatever the
-/// number of threads. Errors: invalidArgument (the message names the member and its range), and those of leaksAt and
-/// of the path tracer.
+/// number of threads. Errors: invalidArgument (the message names the member and its range; a field with
+/// LeakGuard::sdfShadow, whose leaks have none of the causes), and those of leaksAt and of the path tracer.
 PROBEGI_API Result<LeakAudit> auditLeaks(const Context& context, const Scene& scene, const ScenePose& pose,
                                          const Tracer& tracer, const Field& field, const AuditDesc& desc = {});
 

@@ -19,7 +19,7 @@ namespace probegi {
 /// Two numbers by which a field's scene is known again; 0: unknown.
 struct SceneFingerprint {
     std::uint64_t geometry = 0;  ///< of the triangles, and of what lets rays through: what masks depend on
-    std::uint64_t light = 0;     ///< of punctual lights, the sky, and what surfaces reflect and emit
+    std::uint64_t light = 0;     ///< of punctual lights, the sky, and what surfaces reflect and emit as probes see them
 
     bool operator==(const SceneFingerprint&) const = default;
 };
@@ -46,8 +46,8 @@ struct SavedField {
 };
 
 /// Writes a field as writeFile() does: whole or not at all. Errors: invalidArgument (a snapshot that is not whole, or
-/// that validation refuses; a text of provenance over 64 KiB), outOfMemory, writeFailed, unsupported (built without
-/// file formats); of a field on a GPU also deviceLost.
+/// that validation refuses; masks of other volumes; a text of provenance over 64 KiB), outOfMemory, writeFailed,
+/// unsupported (built without file formats); of a field on a GPU also deviceLost.
 PROBEGI_API Result<void> saveField(const std::filesystem::path& path, const SavedField& saved);
 PROBEGI_API Result<void> saveField(const std::filesystem::path& path, const Field& field,
                                    const FieldProvenance& provenance = {});

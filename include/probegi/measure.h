@@ -203,7 +203,7 @@ struct FieldDifference {
     bool equalStates = false;  ///< and what probes keep besides
 };
 
-/// Errors: invalidArgument (the snapshots are of other volumes or maps, or of some probes only), outOfMemory.
+/// Errors: invalidArgument (the snapshots are of other volumes or maps, of some probes only, or invalid), outOfMemory.
 PROBEGI_API Result<FieldDifference> compareFields(const FieldSnapshot& a, const FieldSnapshot& b);
 
 // ---- A field in motion

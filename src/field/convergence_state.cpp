@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::uint32_t kMark = 0x43'4f'4e'31;  // of this list of members
 constexpr double kMostAhead = 1e3;              // a closed room of albedo 0.99 is a hundred updates behind
+constexpr std::size_t kRegionWords = 8;         // of a region without probes
 
 class Words {
 public:
@@ -69,14 +70,14 @@ public:
     }
     template <class T>
     void take(std::vector<T>& list) {
-        list.resize(count());
+        list.resize(count(sizeof(T) / sizeof(std::uint32_t)));
         for (T& entry : list) take(entry);
     }
-    /// Of entries that follow, each a word or more.
-    std::size_t count() {
+    /// Of entries that follow, each `wordsEach` or more: what is kept of them is in proportion to the words.
+    std::size_t count(std::size_t wordsEach) {
         std::uint32_t word;
         take(word);
-        m_ok = m_ok && word <= m_words.size();
+        m_ok = m_ok && word <= m_words.size() / wordsEach;
         return m_ok ? word : 0;
     }
 
@@ -121,7 +122,7 @@ bool Convergence::restore(std::span<const std::uint32_t> state) {
     words.take(m_common);
     words.take(m_last);
     words.take(m_before);
-    m_regions.resize(words.count());
+    m_regions.resize(words.count(kRegionWords));
     for (Region& region : m_regions) {
         words.take(region.residual2);
         words.take(region.change);
@@ -144,7 +145,8 @@ bool Convergence::isSound() const noexcept {
             if (probe < 0 || std::size_t(probe) >= probes) return false;
     const Numbers& n = m_now;
     const bool counted = n.updates >= 0 && n.turned >= 0 && n.turned <= kTurnedUpdates && n.averaged >= 0 &&
-                         n.averaged <= n.updates && (n.averaged == 0 || n.turned > 0);
+                         n.averaged <= n.updates && (n.averaged == 0 || n.turned > 0) && n.differences >= -1 &&
+                         n.differences <= n.updates;
     // At most three updates of an average go by without being looked at.
     const bool observed = m_common.size() <= std::size_t(n.updates) && m_common.size() + 3 >= std::size_t(n.averaged);
     return counted && observed && n.ahead >= 0 && n.ahead <= kMostAhead && n.rate >= 0 && n.rate < 1 &&

@@ -16,7 +16,7 @@ using io::refuseMalformed;
 /// As in PNG: not text, and changed by whoever takes it for text.
 constexpr std::array<std::uint8_t, kMagicBytes> kMagic{0x89, 'P', 'G', 'I', 'F', '\r', '\n', 0x1a};
 constexpr std::uint32_t kVersion = 1;
-constexpr std::size_t kHeaderBytes = 32, kHeaderHashed = 24;
+constexpr std::size_t kHeaderHashed = 24;
 constexpr std::size_t kChunkHeaderBytes = 40, kChunkHashed = 32;
 constexpr std::uint32_t kRequired = 1, kPacked = 2, kKnownFlags = kRequired | kPacked;
 constexpr int kLevel = 3;
@@ -79,8 +79,7 @@ std::vector<std::uint8_t> ChunkWriter::finish() && {
     return std::move(m_file);
 }
 
-ChunkReader::ChunkReader(std::span<const std::uint8_t> file, std::span<const ChunkName> known, io::Budget& budget)
-    : m_budget(budget) {
+std::uint32_t readHeader(std::span<const std::uint8_t> file, std::uint64_t fileBytes) {
     if (!beginsAsFieldFile(file))
         refuseMalformed("is not a field of ProbeGI; give a file that 'probegi bake' or saveField() has written");
     if (file.size() < kHeaderBytes) refuseMalformed("is cut off in its header; copy or bake it again");
@@ -94,9 +93,15 @@ ChunkReader::ChunkReader(std::span<const std::uint8_t> file, std::span<const Chu
     if (version != kVersion)
         refuse(ErrorCode::unsupported, "is of version {} of its format; this ProbeGI reads version {}; use a later one",
                version, kVersion);
-    if (length != file.size())
-        refuseMalformed("is cut off or damaged: it has {} bytes and should have {}; copy or bake it again", file.size(),
+    if (length != fileBytes)
+        refuseMalformed("is cut off or damaged: it has {} bytes and should have {}; copy or bake it again", fileBytes,
                         length);
+    return chunks;
+}
+
+ChunkReader::ChunkReader(std::span<const std::uint8_t> file, std::span<const ChunkName> known, io::Budget& budget)
+    : m_budget(budget) {
+    const std::uint32_t chunks = readHeader(file, file.size());
     std::uint64_t at = kHeaderBytes;
     for (std::uint32_t i = 0; i < chunks; ++i) {
         const Chunk chunk = readChunk(file, at);
@@ -110,7 +115,7 @@ ChunkReader::ChunkReader(std::span<const std::uint8_t> file, std::span<const Chu
         if (has(chunk.name)) refuseMalformed("is damaged: it has its part {} twice", shown(chunk.name));
         m_chunks.push_back(chunk);
     }
-    if (at != length) refuseMalformed("is damaged: {} bytes belong to none of its parts", length - at);
+    if (at != file.size()) refuseMalformed("is damaged: {} bytes belong to none of its parts", file.size() - at);
 }
 
 ChunkReader::Chunk ChunkReader::readChunk(std::span<const std::uint8_t> file, std::uint64_t& at) const {

@@ -25,6 +25,15 @@ enum class ChunkNeed : std::uint8_t { optional, required };
 /// With which a field's file begins.
 bool beginsAsFieldFile(std::span<const std::uint8_t> bytes) noexcept;
 inline constexpr std::size_t kMagicBytes = 8;
+/// Of the header.
+inline constexpr std::size_t kHeaderBytes = 32;
+
+/// Checks the header of a file of so many bytes; `begin` has all of it, or the file has no more. Returns the number of
+/// chunks. Throws io::Refused.
+std::uint32_t readHeader(std::span<const std::uint8_t> begin, std::uint64_t fileBytes);
+inline void checkHeader(std::span<const std::uint8_t> begin, std::uint64_t fileBytes) {
+    readHeader(begin, fileBytes);
+}
 
 /// Makes a file of chunks, compressed one by one.
 class ChunkWriter {

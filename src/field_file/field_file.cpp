@@ -29,6 +29,9 @@ void validate(const SavedField& saved) {
     const FieldDesc& desc = saved.snapshot.desc;
     orRefuse(validateFieldDesc(desc));
     orRefuse(validateFieldSettings(saved.settings));
+    // Whatever the guard: who has the masks may ask them for each of the field's slots, which they do not check.
+    if (saved.settings.masks && saved.settings.masks->volumes() != desc.volumes)
+        io::refuse(ErrorCode::invalidArgument, "its masks are of other volumes than its probes");
     orRefuse(validateGuard(desc, saved.settings, saved.snapshot.scrolled));
     if (saved.snapshot.slots != SlotRange{0, probeCount(desc)})
         io::refuse(ErrorCode::invalidArgument, "the snapshot has some of the field's probes only; read all of them");
@@ -96,8 +99,10 @@ Result<void> saveField(const std::filesystem::path& path, const Field& field, co
 
 Result<SavedField> loadField(const std::filesystem::path& path, const ReadLimits& limits) {
     constexpr std::uint64_t kAddressed = std::uint64_t(std::numeric_limits<std::ptrdiff_t>::max());
-    const auto bytes =
-        io::guarded(path.string(), [&] { return io::readFile(path, std::min(kLargestFile, kAddressed)); });
+    const auto bytes = io::guarded(path.string(), [&] {
+        // A file that is none, or is cut off, costs no memory.
+        return io::readFile(path, std::min(kLargestFile, kAddressed), {kHeaderBytes, checkHeader});
+    });
     if (!bytes) return bytes.error();
     return loadFieldFromMemory(path.string(), *bytes, limits);
 }

@@ -56,19 +56,51 @@ void addLights(ContentHash& hash, const Lighting& lighting) {
     hash.addList(lighting.sky.image.pixels);
 }
 
+bool emits(const Material& material) {
+    return material.emission.x > 0 || material.emission.y > 0 || material.emission.z > 0;
+}
+
+bool hasNormalMap(const Material& material) {
+    return material.normalTexture.image >= 0 && material.normalScale != 0;
+}
+
+/// Of what probes see: their rays take all surfaces as matt (kernels/shade/resolve_surface.h), so that metalness and
+/// roughness are not in it.
+void addMaterial(ContentHash& hash, const Scene& scene, const Material& material) {
+    hash.add(glm::vec3(material.baseColor));
+    addTexture(hash, scene, material.baseColorTexture);
+    hash.add(material.emission);
+    if (emits(material)) addTexture(hash, scene, material.emissiveTexture);
+    hash.add(hasNormalMap(material));
+    if (!hasNormalMap(material)) return;
+    hash.add(material.normalScale);
+    addTexture(hash, scene, material.normalTexture);
+}
+
+/// Where the material's textures lie on a surface, and how light falls on it.
+void addShading(ContentHash& hash, const Primitive& primitive, const Material& material) {
+    hash.addList(primitive.normals);
+    if (hasNormalMap(material)) hash.addList(primitive.tangents);
+    bool read[2] = {false, false};
+    const auto reads = [&](const TextureRef& texture) {
+        if (texture.image >= 0) read[texture.texCoord == 1] = true;
+    };
+    reads(material.baseColorTexture);
+    if (emits(material)) reads(material.emissiveTexture);
+    if (hasNormalMap(material)) reads(material.normalTexture);
+    if (read[0]) hash.addList(primitive.uv0);
+    if (read[1]) hash.addList(primitive.uv1);
+}
+
 std::uint64_t lightOf(const Scene& scene, const ScenePose& pose, const Lighting& lighting) {
     ContentHash hash;
     addLights(hash, lighting);
     for (const Instance& instance : pose.instances)
-        for (const Primitive& primitive : scene.meshes[std::size_t(instance.mesh)].primitives)
+        for (const Primitive& primitive : scene.meshes[std::size_t(instance.mesh)].primitives) {
             hash.add(primitive.material);
-    for (const Material& material : scene.materials) {
-        hash.add(material.baseColor);
-        hash.add(material.metallic);
-        hash.add(material.emission);
-        addTexture(hash, scene, material.baseColorTexture);
-        addTexture(hash, scene, material.emissiveTexture);
-    }
+            addShading(hash, primitive, scene.materials[std::size_t(primitive.material)]);
+        }
+    for (const Material& material : scene.materials) addMaterial(hash, scene, material);
     return hash.value();
 }
 

@@ -1,5 +1,6 @@
 #include "io/file_bytes.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <memory>
@@ -21,9 +22,17 @@ std::string reason(int error) {
     return std::error_code(error, std::generic_category()).message();
 }
 
+/// Fills `bytes` from where the file stands.
+void readOn(std::FILE* file, std::span<std::uint8_t> bytes) {
+    if (std::fread(bytes.data(), 1, bytes.size(), file) == bytes.size()) return;
+    const bool failed = std::ferror(file) != 0;
+    refuse(ErrorCode::fileUnreadable, "cannot be read to its end ({})",
+           failed ? reason(errno) : std::string("it was truncated while being read"));
+}
+
 }  // namespace
 
-std::vector<std::uint8_t> readFile(const fs::path& path, std::uint64_t limit) {
+std::vector<std::uint8_t> readFile(const fs::path& path, std::uint64_t limit, const FileBegin& begin) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (!fs::exists(status)) {
@@ -38,12 +47,12 @@ std::vector<std::uint8_t> readFile(const fs::path& path, std::uint64_t limit) {
     if (size > limit) refuse(ErrorCode::outOfMemory, "has {} bytes; at most {} are supported", size, limit);
     const File file(std::fopen(path.c_str(), "rb"));
     if (!file) refuse(ErrorCode::fileUnreadable, "cannot be opened ({}); check its permissions", reason(errno));
-    std::vector<std::uint8_t> bytes(size);
-    if (std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) {
-        const bool failed = std::ferror(file.get()) != 0;
-        refuse(ErrorCode::fileUnreadable, "cannot be read to its end ({})",
-               failed ? reason(errno) : std::string("it was truncated while being read"));
-    }
+    std::vector<std::uint8_t> bytes(std::size_t(std::min<std::uint64_t>(size, begin.bytes)));
+    const std::size_t looked = bytes.size();
+    readOn(file.get(), bytes);
+    if (begin.check) begin.check(bytes, size);
+    bytes.resize(std::size_t(size));
+    readOn(file.get(), std::span(bytes).subspan(looked));
     return bytes;
 }
 

@@ -4,6 +4,8 @@
 #include <numbers>
 
 #include "core/sentence.h"
+#include "field/layout.h"
+#include "field/snapshot.h"
 #include "kernels/lookup/probe_query.h"
 #include "kernels/probe/probe_state.h"
 #include "probegi/measure.h"
@@ -32,8 +34,11 @@ bool isUsed(const ProbeState& state) {
 }
 
 bool isWhole(const FieldSnapshot& snapshot) {
-    return snapshot.slots == SlotRange{0, probeCount(snapshot.desc)} &&
-           snapshot.states.size() == std::size_t(snapshot.slots.count);
+    return snapshot.slots == SlotRange{0, probeCount(snapshot.desc)};
+}
+
+Result<void> checkAlone(const FieldSnapshot& snapshot) {
+    return validateFieldDesc(snapshot.desc).and_then([&] { return validateSnapshot(snapshot.desc, snapshot); });
 }
 
 Result<void> checkAlike(const FieldSnapshot& a, const FieldSnapshot& b) {
@@ -43,7 +48,7 @@ Result<void> checkAlike(const FieldSnapshot& a, const FieldSnapshot& b) {
         return fail(ErrorCode::invalidArgument,
                     "the fields have probes at other places; compare fields with the same volumes");
     if (a.desc.irradianceTexels == b.desc.irradianceTexels && a.desc.visibilityTexels == b.desc.visibilityTexels)
-        return {};
+        return checkAlone(a).and_then([&] { return checkAlone(b); });
     return fail(ErrorCode::invalidArgument,
                 sentence("one field has maps of ", a.desc.irradianceTexels, " and ", a.desc.visibilityTexels,
                          " texels, the other of ", b.desc.irradianceTexels, " and ", b.desc.visibilityTexels));

@@ -119,7 +119,8 @@ INSTANTIATE_TEST_SUITE_P(Audit, BadAudit,
                                          std::pair{"--least", "0"}, std::pair{"--points", "0"},
                                          std::pair{"--points", "1.5"}, std::pair{"--points", "4194305"},
                                          std::pair{"--truth-samples", "-1"}, std::pair{"--method", "reference"},
-                                         std::pair{"--size", "0x1"}, std::pair{"--device", "0"}));
+                                         std::pair{"--size", "0x1"}, std::pair{"--device", "0"},
+                                         std::pair{"--leak-guard", "sdf-shadow"}));
 
 TEST(Audit, RefusesFilesItCannotWrite) {
     const TemporaryFolder folder;

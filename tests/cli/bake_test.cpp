@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/tool.h"
+#include "probegi/field_file.h"
 #include "probegi/image.h"
 
 namespace probegi::test {
@@ -124,7 +125,15 @@ TEST(ToolBake, comparesFields) {
     EXPECT_FALSE(different.at("equalMaps"));
     EXPECT_THAT(runTool({"compare", a, b}).out, HasSubstr("light of all probes"));
     EXPECT_THAT(runTool({"compare", a, a}).out, HasSubstr("bits    the same; masks the same"));
+    EXPECT_TRUE(same.at("equalSettings"));
+    EXPECT_FALSE(different.at("equalSettings")) << "of another seed";
     expectRefused({"compare", a, other}, "probes at other places", 1);
+    expectRefused({"compare", a, b, "--exposure", "2"}, "--exposure acts on pictures", 1);
+    SavedField slow = loadField(a).value();
+    slow.settings.hysteresis = 0.5f;
+    ASSERT_TRUE(saveField(b, slow));
+    EXPECT_THAT(runTool({"compare", a, b}).out, HasSubstr("bits    the same; masks the same; settings others"));
+    EXPECT_THAT(runTool({"compare", a, a}).out, HasSubstr("settings the same"));
     const std::string picture = folder.file("p.png");
     ASSERT_TRUE(writeImage(picture, HdrImage(4, 4)));
     expectRefused({"compare", a, picture}, "compare two fields or two pictures", 1);
@@ -149,6 +158,76 @@ TEST(ToolBake, whatWasInterruptedIsTakenUp) {
     }
 }
 
+// Its file is gone, and something that cannot be replaced in its place.
+TEST(ToolBake, aCheckpointThatFailsIsAWarning) {
+    for (const std::string& run : {std::string("--frames 300"), std::string("--tolerance 0.0001")}) {
+        const TemporaryFolder folder;
+        const std::string file = folder.file("a.field"), part = file + ".part", errors = folder.file("errors");
+        const std::string line =
+            std::string(PROBEGI_TOOL) +
+            " bake builtin:dark-room --leak-guard moments --probes 7x4x5 --rays 32 --checkpoint 0 " + run + " -o " +
+            file + " >/dev/null 2>" + errors + " & pid=$!; while [ ! -e " + part +
+            " ] && kill -0 $pid; do :; done; until mkdir " + part + " 2>/dev/null; do rm -f " + part +
+            "; done; wait $pid";
+        EXPECT_EQ(std::system(("sh -c '" + line + "'").c_str()), 0) << readText(errors);
+        const std::string told = readText(errors), warning = "the bake goes on";
+        ASSERT_THAT(told, HasSubstr(warning)) << "it ended before its file could be taken away";
+        EXPECT_EQ(told.find(warning), told.rfind(warning)) << "told once";
+        EXPECT_EQ(runTool({"info", file}).exitCode, 0);
+    }
+}
+
+TEST(ToolBake, whatIsToBeItsPartFileIsKept) {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("foo"), part = file + ".part";
+    const std::string primitives = R"({"sdf": 1, "primitives": [{"shape": "plane", "centre": [0, 0, 0]}]})";
+    const auto refused = [&](const Words& more, const std::string& mentions) {
+        expectRefused(joined(joined({"bake", "builtin:cornell", "-o", file, "--frames", "1"}, kFew), more), mentions,
+                      1);
+    };
+    writeText(part, primitives);
+    refused({"--sdf", part}, "foo.part' would overwrite a file that is read");
+    refused({"--stats", part}, "FILE.part of -o and --stats are both");
+    refused({}, "is no field");
+    EXPECT_EQ(readText(part), primitives);
+    EXPECT_EQ(folder.entries(), 1u);
+    std::filesystem::remove(part);
+    std::filesystem::create_directory(part);
+    refused({}, "is a folder");
+    expectBaked("/dev/stdout", {"--frames", "1"});
+}
+
+// Placing the probes is no update of theirs.
+TEST(ToolBake, countsWhatItGoesOnFrom) {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("a.field"), stats = folder.file("s.json");
+    const Words options = joined(kCoarse, {"--frames", "2", "--relocation", "on", "--stats", stats});
+    expectBaked(file + ".part", options);
+    expectBaked(file, joined(options, {"--resume"}));
+    const auto json = nlohmann::json::parse(readText(stats));
+    EXPECT_EQ(json.at("updatesBefore"), 2);
+    EXPECT_EQ(json.at("updates"), 0);
+    EXPECT_FALSE(json.at("masks").contains("seconds")) << "they were baked before";
+    EXPECT_EQ(draw(folder, {"--field", file, "--stats", stats}).size(), 32u * 18);
+    EXPECT_FALSE(nlohmann::json::parse(readText(stats)).at("masks").contains("seconds"));
+}
+
+TEST(ToolBake, primitivesOfAnotherContentAreAnotherBake) {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("a.field"), primitives = folder.file("p.sdf.json");
+    const Words options{"--frames", "1", "--leak-guard", "moments", "--sdf", primitives};
+    const auto write = [&](const std::string& height) {
+        writeText(primitives, R"({"sdf": 1, "primitives": [{"shape": "plane", "centre": [0, )" + height + ", 0]}]}");
+    };
+    write("0");
+    expectBaked(file + ".part", options);
+    write("0.1");
+    expectRefused(joined(joined({"bake", "builtin:dark-room", "-o", file, "--resume"}, kFew), options),
+                  "is of another bake", 1);
+    write("0");
+    expectBaked(file, joined(options, {"--resume"}));
+}
+
 TEST(ToolBake, resumesOnlyItsOwn) {
     const TemporaryFolder folder;
     const std::string file = folder.file("room.field"), part = file + ".part";
@@ -162,6 +241,7 @@ TEST(ToolBake, resumesOnlyItsOwn) {
     refused({"--frames", "2", "--clusters", "3"}, "is of another bake");
     refused({"--frames", "2", "--wall", "0.2"}, "is of another bake");
     refused({"--frames", "2", "--relocation", "on"}, "is of another bake");
+    refused({"--frames", "2", "--outside", "0.1,0.2,0.3"}, "is of another bake");
     expectBaked(file, {"--frames", "2", "--resume"});
     EXPECT_FALSE(std::filesystem::exists(part));
     writeText(part, readText(file).substr(0, 1000));
@@ -194,7 +274,9 @@ TEST(ToolBake, refusesWhatItCannotDo) {
     const Words render{"render", "builtin:dark-room", "-o", picture, "--field", file};
     expectRefused(joined(render, {"--probes", "4x4x4"}), "--probes", 2);
     expectRefused(joined(render, {"--rays", "64"}), "--rays", 2);
-    expectRefused(joined(render, {"--leak-guard", "masks"}), "--leak-guard", 2);
+    for (const char* guard : {"masks", "moments"})
+        expectRefused(joined(render, {"--leak-guard", guard}), "the file of --field says", 2);
+    expectRefused({"bake", "builtin:dark-room", "-o", file, "--leak-guard", "sdf-shadow"}, "--leak-guard", 2);
     expectRefused(joined(render, {"--method", "none"}), "--field", 2);
     expectRefused({"render", "builtin:dark-room", "-o", file, "--field", file}, "must end in", 1);
     expectRefused({"render", "builtin:dark-room", "-o", picture, "--field", folder.file("no.field")}, "no such file",

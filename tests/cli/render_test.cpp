@@ -452,5 +452,18 @@ TEST(Render, OptionsOfAnotherMethodWarn) {
     EXPECT_THAT(run.err, testing::StartsWith("warning: "));
 }
 
+TEST(Render, DebugPicturesSayWhatTheyLeaveOut) {
+    const TemporaryFolder folder;
+    for (const std::vector<std::string>& option :
+         std::vector<std::vector<std::string>>{{"--contact", "on"}, {"--glossy", "first"}}) {
+        std::vector<std::string> arguments{"render", "builtin:cornell", "-o",       folder.file("a.png"), "--size",
+                                           "32x18",  "--debug",         "coverage", "--probes",           "3x3x3"};
+        arguments.insert(arguments.end(), option.begin(), option.end());
+        const ToolRun run = runTool(arguments);
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        EXPECT_THAT(run.err, HasSubstr("--glossy and --contact do nothing with --debug"));
+    }
+}
+
 }  // namespace
 }  // namespace probegi::test

@@ -106,6 +106,66 @@ TEST_F(Sdf, animationsSayWhenNoPrimitiveMoves) {
     EXPECT_THAT(warning(ground), HasSubstr("all that moves stays where it was fitted"));
 }
 
+/// A floor of 2 x 2 m, and a camera that rises from 2 to 3 m in a second.
+std::string floorUnderAMovingCamera() {
+    const nlohmann::json scene = {
+        {"asset", {{"version", "2.0"}}},
+        {"scene", 0},
+        {"scenes", {{{"nodes", {0, 1}}}}},
+        {"nodes",
+         {{{"mesh", 0}, {"translation", {-1, 0, -1}}, {"scale", {2, 1, 2}}},
+          {{"camera", 0}, {"translation", {0, 3, 0}}, {"rotation", {-0.7071068, 0, 0, 0.7071068}}}}},
+        {"cameras", {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}}},
+        {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"mode", 5}}}}}}},
+        {"animations",
+         {{{"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}},
+           {"samplers", {{{"input", 1}, {"output", 2}}}}}}},
+        {"accessors",
+         {{{"bufferView", 0}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}},
+          {{"bufferView", 1}, {"componentType", 5126}, {"count", 2}, {"type", "SCALAR"}, {"min", {0}}, {"max", {1}}},
+          {{"bufferView", 2}, {"componentType", 5126}, {"count", 2}, {"type", "VEC3"}}}},
+        {"bufferViews",
+         {{{"buffer", 0}, {"byteLength", 48}},
+          {{"buffer", 0}, {"byteOffset", 48}, {"byteLength", 8}},
+          {{"buffer", 0}, {"byteOffset", 56}, {"byteLength", 24}}}},
+        // (0,0,0) (0,0,1) (1,0,0) (1,0,1); 0, 1; (0,2,0) (0,3,0)
+        {"buffers",
+         {{{"byteLength", 80},
+           {"uri",
+            "data:application/octet-stream;base64,"
+            "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AACAPwAAAAAAAAAAAACAPwAAAAAA"
+            "AIA/AAAAAAAAgD8AAAAAAAAAQAAAAAAAAAAAAABAQAAAAAA="}}}}};
+    return scene.dump();
+}
+
+TEST_F(Sdf, aCameraThatMovesLeavesPrimitivesWhereTheyWere) {
+    writeText(file("floor.gltf"), floorUnderAMovingCamera());
+    writeText(file("m.sdf.json"), R"({"sdf": 1, "primitives": [{"shape": "plane", "centre": [0, 0, 0]}]})");
+    const ToolRun run = runTool({"render", file("floor.gltf"), "-o", file("m%d.exr"), "--animate", "0:1:1", "--size",
+                                 "16x9", "--sdf", file("m.sdf.json"), "--volume", "-2,-0.5,-2:2:3x3x3", "--rays", "16",
+                                 "--frames", "1", "--sky", "1,1,1"});
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_THAT(run.err, testing::Not(HasSubstr("stays where it was fitted")));
+}
+
+// Files keep no primitives; who has both may look up with their shadows.
+TEST_F(Sdf, shadowsOfPrimitivesOnAFieldFromAFile) {
+    const std::string field = file("box.field");
+    const ToolRun baked = runTool({"bake", "builtin:cornell", "-o", field, "--leak-guard", "moments", "--probes",
+                                   "6x6x6", "--rays", "32", "--frames", "4"});
+    ASSERT_EQ(baked.exitCode, 0) << baked.err;
+    const std::vector<std::string> both{"--field", field, "--sdf", file()};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), both.begin(), both.end());
+        return render(more).pixels;
+    };
+    const auto shadowed = with({"--leak-guard", "sdf-shadow"});
+    EXPECT_NE(shadowed, with({}));
+    EXPECT_EQ(shadowed, with({"--method", "sdfddgi", "--contact", "off"}));
+    expectRefused({"render", "builtin:cornell", "-o", file("b.png"), "--field", field, "--leak-guard", "sdf-shadow"},
+                  "--sdf FILE", 2);
+}
+
 TEST_F(Sdf, statsSayHowManyAndHowLarge) {
     const ToolRun run =
         runTool(arguments({"--sdf", file(), "--frames", "1", "--probes", "3x3x3", "--stats", file("s.json")}));
@@ -154,6 +214,10 @@ TEST_F(Sdf, noPrimitivesAreAWarning) {
     const ToolRun run = runTool(arguments({"--sdf", file("none.json"), "--frames", "1", "--probes", "3x3x3"}));
     EXPECT_EQ(run.exitCode, 0);
     EXPECT_THAT(run.err, HasSubstr("has no primitives: the rays of probes meet only the sky"));
+    const ToolRun mesh =
+        runTool(arguments({"--sdf", file("none.json"), "--probe-rays", "mesh", "--frames", "1", "--probes", "3x3x3"}));
+    EXPECT_EQ(mesh.exitCode, 0);
+    EXPECT_THAT(mesh.err, HasSubstr("has no primitives: they shade nothing"));
 }
 
 TEST_F(Sdf, wrongFilesAreRefused) {

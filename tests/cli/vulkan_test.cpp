@@ -184,6 +184,19 @@ TEST_F(Vulkan, OptionsThatDoNotGoTogether) {
     expectRefused({"bench", "--backend", "vulkan", "--growth-million"}, "--growth-million", 2);
 }
 
+TEST_F(Vulkan, BakesAreResumedWhereTheyBegan) {
+    const std::string file = m_folder.file("a.field");
+    const std::vector<std::string> options{"--frames", "1",     "--leak-guard", "moments",
+                                           "--probes", "4x4x4", "--rays",       "32"};
+    std::vector<std::string> onCpu{"bake", "builtin:cornell", "-o", file + ".part"};
+    onCpu.insert(onCpu.end(), options.begin(), options.end());
+    ASSERT_EQ(runTool(onCpu).exitCode, 0);
+    std::vector<std::string> onVulkan{"bake",           "builtin:cornell",      "-o",      file, "--backend", "vulkan",
+                                      "--shader-cache", m_folder.file("cache"), "--resume"};
+    onVulkan.insert(onVulkan.end(), options.begin(), options.end());
+    expectRefused(onVulkan, "is of another bake", 1);
+}
+
 #else
 
 TEST(Vulkan, ReportsThatTheProgramWasBuiltWithoutIt) {

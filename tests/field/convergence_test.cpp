@@ -3,10 +3,12 @@
 #include "field/convergence.h"
 #include "field/layout.h"
 #include "support/field_setup.h"
+#include "support/memory.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace probegi {
@@ -176,6 +178,47 @@ TEST(Convergence, whatRemainsIsScatterAndDrift) {
         const double drift = std::abs(sum.back() - sum[std::size_t(n / 2 - 1)]) / (8 - 1);
         EXPECT_NEAR(books.remaining() / (scatter + drift), 1, 1e-3) << n;
     }
+}
+
+// Words of the state before its lists: a mark, four whole numbers, four of two words, two flags, a number.
+constexpr std::size_t kNumberWords = 1 + 4 + 4 * 2 + 2 + 1;
+
+TEST(Convergence, savedStatesAreChecked) {
+    const Ending end = converge({{1, 0.5}, {2, 0.6, 0.02}}, 0.005f, 40);
+    std::vector<std::uint32_t> words;
+    end.books.save(words);
+    FieldSetup desc;
+    desc.volumes[0].counts = {8, 4, 4};
+    const auto restores = [&](std::vector<std::uint32_t> state) {
+        return Convergence(desc, makeVolumes(desc), 0.005f, 40).restore(state);
+    };
+    EXPECT_TRUE(restores(words));
+    constexpr std::size_t kDifferences = 4;
+    for (const int differences : {-2, end.books.updates() + 1, std::numeric_limits<int>::max()}) {
+        std::vector<std::uint32_t> wrong = words;
+        wrong[kDifferences] = std::uint32_t(differences);
+        EXPECT_FALSE(restores(wrong)) << differences;
+    }
+    for (const int differences : {-1, end.books.updates()}) {
+        std::vector<std::uint32_t> right = words;
+        right[kDifferences] = std::uint32_t(differences);
+        EXPECT_TRUE(restores(right)) << differences;
+    }
+}
+
+TEST(Convergence, aStateOfTooManyRegionsTakesNoMemory) {
+    constexpr std::size_t kWords = std::size_t(1) << 23;
+    std::vector<std::uint32_t> words;
+    converge({{1, 0.5}}, 0.01f, 40).books.save(words);
+    words.resize(kNumberWords + 3);  // three lists of no entries
+    for (std::size_t list = 0; list < 3; ++list) words[kNumberWords + list] = 0;
+    words.resize(kWords);
+    words[kNumberWords + 3] = std::uint32_t(kWords - kNumberWords - 4);  // regions
+    FieldSetup desc;
+    Convergence books(desc, makeVolumes(desc), 0.01f, 40);
+    const std::size_t before = test::peakMemory();
+    EXPECT_FALSE(books.restore(words));
+    EXPECT_LT(test::peakMemory() - before, 2 * kWords * sizeof(std::uint32_t));
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 // Files that are cut off, damaged, foreign or made to do harm.
 #include <gmock/gmock.h>
 
+#include <filesystem>
+
 #include "field_file/field_bytes.h"
+#include "probegi/io.h"
 #include "raw_file.h"
 #include "saved_field.h"
 
@@ -196,6 +199,43 @@ TEST(HostileFieldFile, masksThatPointElsewhere) {
     expectRefused(words(3, 5), ErrorCode::malformed, "masks of slot 1");  // a sixth cluster of five
     expectRefused(words(0, 0, 1), ErrorCode::malformed, "whole number of cubes");
     expectRefused(words(0, 0, 100000), ErrorCode::malformed, "whole number of cubes");
+}
+
+// A picture of the clusters asks the masks for every slot, whatever the guard.
+TEST(HostileFieldFile, masksOfFewerProbes) {
+    const Halls halls(0.17f);
+    SavedField saved = someField();
+    FieldDesc fewer = saved.snapshot.desc;
+    fewer.volumes.pop_back();
+    saved.settings.masks = halls.bake({.factor = 2}, fewer);
+    for (const LeakGuard guard : {LeakGuard::moments, LeakGuard::masks}) {
+        saved.settings.guard = guard;
+        const auto kept = saveField("unused.field", saved);
+        ASSERT_FALSE(kept);
+        EXPECT_THAT(kept.error().message, HasSubstr("its masks are of other volumes than its probes"));
+    }
+    // The chunks of a field of fewer probes, with masks that are its own.
+    SavedField small = saved;
+    Field field = Field::create(halls.context, fewer).value();
+    small.snapshot = field.read().value();
+    const RawFile masks = takenApart(encodeField(small));
+    saved = someField();
+    saved.settings.guard = LeakGuard::moments;
+    RawFile raw = takenApart(encodeField(saved));
+    for (const char* name : {"MASK", "MWRD"}) raw.chunk(name) = RawFile(masks).chunk(name);
+    expectRefused(putTogether(raw), ErrorCode::malformed, "its masks are of other volumes than its probes");
+}
+
+// A file of holes takes no room on the disk, and would take all memory.
+TEST(HostileFieldFile, theLengthIsCheckedBeforeMemoryIsTaken) {
+    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "holes.field";
+    ASSERT_TRUE(writeFile(path, good()));
+    std::filesystem::resize_file(path, std::uintmax_t(1) << 38);
+    const auto loaded = loadField(path);
+    std::filesystem::remove(path);
+    ASSERT_FALSE(loaded);
+    EXPECT_EQ(loaded.error().code, ErrorCode::malformed);
+    EXPECT_THAT(loaded.error().message, HasSubstr("it has 274877906944 bytes and should have"));
 }
 
 }  // namespace

@@ -190,8 +190,57 @@ TEST(SceneFingerprint, tellsScenesAndLightsApart) {
     EXPECT_EQ(changed([](Scene& s, ScenePose&, Lighting&) { s.materials[0].alphaMode = AlphaMode::mask; }),
               Changed(true, false));
     EXPECT_EQ(changed([](Scene& s, ScenePose&, Lighting&) { s.materials[0].emission.y = 1; }), Changed(false, true));
+    EXPECT_EQ(changed([](Scene& s, ScenePose&, Lighting&) { s.materials[0].baseColor.x = 0.5f; }),
+              Changed(false, true));
+    EXPECT_EQ(changed([](Scene& s, ScenePose&, Lighting&) {
+                  s.meshes[0].primitives[0].normals.assign(24, {0, 1, 0});
+              }),
+              Changed(false, true));
+    // Probes see matt surfaces, and textures only where there are any.
+    EXPECT_EQ(changed([](Scene& s, ScenePose&, Lighting&) {
+                  s.materials[0].metallic = s.materials[0].roughness = 0.5f;
+                  s.materials[0].normalScale = 2;
+                  s.materials[0].emissiveTexture.image = 0;
+                  s.meshes[0].primitives[0].uv0.assign(24, {0, 1});
+                  s.meshes[0].primitives[0].tangents.assign(24, {1, 0, 0, 1});
+              }),
+              Changed(false, false));
     EXPECT_EQ(changed([](Scene&, ScenePose&, Lighting& l) { l.sky.radiance.z = 2; }), Changed(false, true));
     EXPECT_EQ(changed([](Scene&, ScenePose&, Lighting& l) { l.lights.emplace_back(); }), Changed(false, true));
+}
+
+TEST(SceneFingerprint, tellsTexturedSurfacesApart) {
+    const auto of = [](const auto& change) {
+        Halls halls(0.17f);
+        halls.scene.images.push_back({1, 1, {128, 128, 255, 255}});
+        Primitive& surface = halls.scene.meshes[0].primitives[0];
+        surface.uv0.assign(surface.positions.size(), glm::vec2(0.5f));
+        surface.uv1 = surface.uv0;
+        surface.tangents.assign(surface.positions.size(), {1, 0, 0, 1});
+        change(halls.scene.materials[0], surface);
+        return fingerprintOf(halls.scene, halls.pose, {}).value();
+    };
+    using Use = TextureRef Material::*;
+    for (const Use use : {&Material::baseColorTexture, &Material::normalTexture, &Material::emissiveTexture}) {
+        const auto light = [&](const auto& change) {
+            return of([&](Material& m, Primitive& p) {
+                       m.emission = glm::vec3(1);
+                       (m.*use).image = 0;
+                       change(m, p);
+                   })
+                .light;
+        };
+        const std::uint64_t here = light([](Material&, Primitive&) {});
+        EXPECT_NE(light([&](Material& m, Primitive&) { (m.*use).image = -1; }), here);
+        EXPECT_NE(light([&](Material& m, Primitive&) { (m.*use).uvTransform[2].x = 0.5f; }), here);
+        EXPECT_NE(light([](Material&, Primitive& p) { p.uv0[1].x = 0; }), here);
+        EXPECT_EQ(light([](Material&, Primitive& p) { p.uv1[1].x = 0; }), here) << "nothing reads it";
+        EXPECT_NE(light([&](Material& m, Primitive& p) { (m.*use).texCoord = 1, p.uv1[1].x = 0; }),
+                  light([&](Material& m, Primitive&) { (m.*use).texCoord = 1; }));
+        const bool normals = use == &Material::normalTexture;
+        EXPECT_EQ(light([](Material& m, Primitive&) { m.normalScale = 0.5f; }) != here, normals);
+        EXPECT_EQ(light([](Material&, Primitive& p) { p.tangents[1].w = -1; }) != here, normals);
+    }
 }
 
 }  // namespace

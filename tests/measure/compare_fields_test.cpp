@@ -88,6 +88,10 @@ TEST(CompareFields, whatCannotBeComparedIsRefused) {
     EXPECT_THAT(complaint([](FieldSnapshot& s) { s.scrolled[0].x = 2; }), HasSubstr("other places"));
     EXPECT_THAT(complaint([](FieldSnapshot& s) { s.desc.irradianceTexels = 4; }), HasSubstr("maps of 8 and 16"));
     EXPECT_THAT(complaint([](FieldSnapshot& s) { s.slots.count = 5; }), HasSubstr("lacks some"));
+    EXPECT_THAT(complaint([](FieldSnapshot& s) { s.states.pop_back(); }), HasSubstr("states"));
+    EXPECT_THAT(complaint([](FieldSnapshot& s) { s.irradiance.resize(5); }), HasSubstr("irradiance"));
+    EXPECT_THAT(complaint([](FieldSnapshot& s) { s.visibility.clear(); }), HasSubstr("visibility"));
+    EXPECT_THAT(complaint([](FieldSnapshot& s) { s.desc.raysPerProbe = 0; }), HasSubstr("raysPerProbe is 0"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "measure/audit/leak_cause.h"
 #include "probegi/measure.h"
+#include "probegi/sdf.h"
 #include "probegi/shapes.h"
 #include "support/field_setup.h"
 
@@ -218,6 +219,21 @@ TEST(LeakAudit, refusesWhatIsOutOfRange) {
     refused("leastStops", desc);
     desc = {}, desc.truthSamples = 0;
     refused("truthSamples", desc);
+}
+
+TEST(LeakAudit, refusesPrimitivesWhoseShadowsHaveNoCause) {
+    const Rooms rooms(0.2f);
+    FieldDesc desc;
+    FieldSettings settings;
+    settings.guard = LeakGuard::sdfShadow;
+    settings.blockers = placeSdf({}, rooms.scene, rooms.pose).value();
+    const Field field = Field::create(rooms.context, desc, settings).value();
+    const auto audit = auditLeaks(rooms.context, rooms.scene, rooms.pose, *rooms.tracer, field);
+    ASSERT_FALSE(audit);
+    EXPECT_EQ(audit.error().code, ErrorCode::invalidArgument);
+    EXPECT_THAT(audit.error().message, HasSubstr("leaksAt()"));
+    const std::vector<FieldQuery> points{{.position = {1, 0, 1}, .normal = {0, 1, 0}}};
+    EXPECT_TRUE(leaksAt(rooms.context, *rooms.tracer, field, points)) << "which asks for no cause";
 }
 
 TEST(LeakAudit, canBeCancelled) {

@@ -193,7 +193,7 @@ void warnWhereNothingMoves(const Scene& scene, const FrameTimes& times) {
 }
 
 void warnWhereNoPrimitiveMoves(const LoadedSetup& setup) {
-    if (!setup.sdf || setup.sdf->primitives.empty() || setup.scene->animations.empty()) return;
+    if (!setup.sdf || setup.sdf->primitives.empty() || movingBounds(*setup.scene, setup.pose).empty()) return;
     for (const SdfPrimitive& primitive : setup.sdf->primitives)
         if (!primitive.node.empty()) return;
     printWarning("no primitive of --sdf has a \"node\": for the probes, all that moves stays where it was fitted");

@@ -232,12 +232,9 @@ void addAuditCommand(CLI::App& app, int& exitCode) {
     command->footer(kFooter);
     command->callback([options, command, &exitCode] {
         checkBackendOptions(*command, options->backend);
-        checkMaskOptions(options->masks);
+        checkMaskOptions(options->masks, options->scene.volumes);
         if (options->masks.bakes() && options->method != Method::ddgi)
             throw CLI::ValidationError("--leak-guard", "masks are looked up with --method ddgi only");
-        if (options->masks.bakes() && options->scene.volumes.cascades > 0)
-            throw CLI::ValidationError("--leak-guard",
-                                       "masks are baked for probes that stand still, without --cascades");
         if (const auto done = audit(*options); !done) exitCode = printError(done.error());
     });
 }

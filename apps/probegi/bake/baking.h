@@ -25,8 +25,11 @@ struct BakeReport {
     std::optional<MaskReport> masks;  ///< with times only if they were baked in this run
 };
 
-/// Bakes a field: masks, then light. From time to time all that there is goes to a file beside the output, from which
-/// another run goes on.
+/// The file beside a bake's output that keeps what there is so far. Empty: a device or a pipe has nothing beside it.
+std::string partFileOf(const std::string& output);
+
+/// Bakes a field: masks, then light. From time to time all that there is goes to partFileOf() the output, from which
+/// another run goes on; where it cannot be written, that is a warning.
 class Baking {
 public:
     /// All must outlive it. `tracer`: the triangles; `probes`: what probe rays hit.
@@ -37,7 +40,8 @@ public:
           m_setup(setup),
           m_options(options),
           m_tracer(tracer),
-          m_probes(probes) {}
+          m_probes(probes),
+          m_partFile(partFileOf(options.render.output)) {}
 
     /// Errors: of the options (--resume without a file, or one of another bake), the field, the files.
     Result<BakeReport> run();
@@ -51,18 +55,18 @@ private:
     Result<void> light();
     Result<void> updates();
     Result<void> converge();
-    Result<void> checkpoint();
-    Result<void> checkpointNowAndThen();
+    int placingUpdates() const;
+    void checkpoint();
+    void checkpointNowAndThen();
     Result<void> finish();
-    std::string partFile() const { return m_options.render.output + ".part"; }
-    /// A device or a pipe has nothing beside it.
-    bool hasPartFile() const;
 
     const Context& m_context;
     const Backend& m_backend;
     const LoadedSetup& m_setup;
     const BakeOptions& m_options;
     const Tracer &m_tracer, &m_probes;
+    const std::string m_partFile;
+    bool m_warned = false;  // that a checkpoint failed
     std::optional<Field> m_field;
     FieldProvenance m_provenance;
     ConvergeState m_convergence;
@@ -70,7 +74,7 @@ private:
     Clock::time_point m_lastCheckpoint{};
 };
 
-/// How a field is baked, so that two bakes of one recipe and one scene are one.
-std::string recipeOf(const BakeOptions& options);
+/// How a field is baked, so that two bakes of one recipe, one scene and the same settings are one.
+std::string recipeOf(const BakeOptions& options, const LoadedSetup& setup);
 
 }  // namespace probegi::tool

@@ -19,17 +19,21 @@ const char* const kFooter =
 'probegi compare A B' how two differ, and loadField() reads it into an engine. Lights may change without another bake:
 'render --field FILE --frames N' lets the probes follow. Equal options and seeds give equal files.
 
-While it works, FILE.part keeps what there is so far, every --checkpoint seconds; --resume goes on from there with the
-same options, and ends with the same file.
+Primitives are not kept: for their shadows give 'render --field FILE' --sdf and --leak-guard sdf-shadow.
+
+While it works, FILE.part keeps what there is so far, every --checkpoint seconds; where that file is, --resume goes on
+from there with the same options, and ends with the same file.
 
 Example: probegi bake builtin:house -o house.field
-Example: probegi bake sponza.glb -o sponza.field --sky 0.3,0.4,0.6 --probes 64x32x64 --resume
+Example: probegi bake sponza.glb -o sponza.field --sky 0.3,0.4,0.6 --probes 64x32x64 --checkpoint 300
 Example: probegi bake builtin:dark-room -o dark.field --clusters 6 --strict --stats bake.json)";
 
 Result<void> bake(BakeOptions& options) {
     RenderOptions& render = options.render;
     Outputs outputs;
     if (auto claimed = outputs.claim("-o", render.output); !claimed) return claimed;
+    if (const std::string part = partFileOf(render.output); !part.empty())
+        if (auto claimed = outputs.claim("FILE.part of -o", part); !claimed) return claimed;
     if (!render.stats.empty())
         if (auto claimed = outputs.claim("--stats", render.stats); !claimed) return claimed;
     const auto context = makeContext(render.scene.threads);
@@ -84,21 +88,14 @@ void addBakeCommand(CLI::App& app, int& exitCode) {
     addBakeOptions(*command, *options);
     addProbeOptions(*command, options->render);
     addSdfOption(*command, options->render.scene);
-    addMaskOptions(*command, options->render.masks, true);
+    addMaskOptions(*command, options->render.masks, {.shortNames = true});
     addFieldRunOptions(*command, options->render.run);
     addBackendOptions(*command, options->render.backend);
     addSceneOptions(*command, options->render.scene);
     command->footer(kFooter);
     command->callback([options, command, &exitCode] {
         checkBackendOptions(*command, options->render.backend);
-        checkMaskOptions(options->render.masks);
-        if (options->render.masks.guard == LeakGuard::sdfShadow)
-            throw CLI::ValidationError("--leak-guard",
-                                       "primitives are not kept in field files: bake with moments, and "
-                                       "give 'render' --sdf and --leak-guard sdf-shadow");
-        if (options->render.masks.bakes() && options->render.scene.volumes.cascades > 0)
-            throw CLI::ValidationError("--cascades",
-                                       "cascades move with a camera, and masks do not: give --leak-guard moments");
+        checkMaskOptions(options->render.masks, options->render.scene.volumes);
         if (const auto done = bake(*options); !done) exitCode = printError(done.error());
     });
 }

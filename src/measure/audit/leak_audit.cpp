@@ -156,6 +156,12 @@ Result<LeakAudit> auditScene(const Context& context, const Scene& scene, const S
 Result<LeakAudit> auditLeaks(const Context& context, const Scene& scene, const ScenePose& pose, const Tracer& tracer,
                              const Field& field, const AuditDesc& desc) {
     if (auto ok = check(desc); !ok) return ok.error();
+    // What primitives do not hide follows from how they stand for the scene, which is none of the causes.
+    if (field.control().settings().guard == LeakGuard::sdfShadow)
+        return fail(
+            ErrorCode::invalidArgument,
+            "of a field with LeakGuard::sdfShadow no cause can be told; audit it with another guard, or measure "
+            "it with leaksAt()");
     return withinMemory("audit the leaks", [&] { return auditScene(context, scene, pose, tracer, field, desc); });
 }
 
