@@ -166,8 +166,8 @@ template <int rules, bool turned>
 void answerBy(const FieldView& view, const kernels::Volume& volume, std::span<const FieldQuery> queries,
               CageAnswer* out) {
     switch (guardNumber(view.guard)) {
-#define GUARD(number, point, seen, between, farther) \
-    case number:                                     \
+#define GUARD(number, point, seen, between, origin, farther) \
+    case number:                                             \
         return answerAll<turned, LaneAccess<rules, number>>(view, volume, queries, out);
         PROBEGI_GUARDS(GUARD)
 #undef GUARD

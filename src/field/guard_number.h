@@ -12,7 +12,7 @@ constexpr int guardNumber(LeakGuard guard) {
     return int(guard);
 }
 
-#define GUARD(number, point, seen, between, farther) std::string_view(#seen),
+#define GUARD(number, point, seen, between, origin, farther) std::string_view(#seen),
 inline constexpr std::string_view kGuardRows[] = {PROBEGI_GUARDS(GUARD)};
 #undef GUARD
 static_assert(kGuardRows[guardNumber(LeakGuard::none)] == "noneSeen");

@@ -168,5 +168,50 @@ TEST_P(BackendSdfShadow, aDarkRoomStaysDark) {
     EXPECT_GT(mean(lit), 1);
 }
 
+/// A sealed dark room with a corridor of 0.4 m, in a volume of 2 m spacing: no cage around the corridor has a probe
+/// that it sees, but of their neighbours some in the room are in sight. All is bright outside.
+TEST_P(BackendSdfShadow, aDarkCorridorStaysDark) {
+    sdf.primitives.clear();
+    const auto wall = [&](glm::vec3 lower, glm::vec3 upper) {
+        sdf.primitives.push_back(solid(SdfShape::box, 0.5f * (lower + upper), 0.5f * (upper - lower)));
+    };
+    for (const float side : {-1.0f, 1.0f}) {
+        wall({side * 0.25f - 0.05f, -1, 0}, {side * 0.25f + 0.05f, 1, 5.1f});
+        wall({side * 3.45f - 0.05f, -1, -6.1f}, {side * 3.45f + 0.05f, 1, 0.1f});
+        wall({side * 1.85f - 1.65f, -1, 0}, {side * 1.85f + 1.65f, 1, 0.1f});
+        wall({-3.5f, side * 0.95f - 0.05f, -6.1f}, {3.5f, side * 0.95f + 0.05f, 0.1f});
+        wall({-0.3f, side * 0.95f - 0.05f, 0}, {0.3f, side * 0.95f + 0.05f, 5.1f});
+    }
+    wall({-0.3f, -1, 5}, {0.3f, 1, 5.1f});
+    wall({-3.5f, -1, -6.1f}, {3.5f, 1, -6});
+    FieldSetup setup;
+    setup.volumes[0] = {{-5, -2, -7}, glm::vec3(2), {6, 3, 8}};
+    setup.raysPerProbe = 32;
+    setup.guard = LeakGuard::sdfShadow;
+    setup.blockers = placed();
+    Field field = makeField(setup);
+    std::vector<RayDatum> rays;
+    for (const ProbeTask& task : field.control().tasks()) {
+        const glm::vec3 p = glm::abs(task.origin - glm::vec3(0, 0, -3));
+        const bool inside = p.x < 3.4f && p.y < 0.9f && p.z < 3;
+        rays.insert(rays.end(), std::size_t(setup.raysPerProbe), {glm::vec3(inside ? 0.0f : 1.0f), 1.0f});
+    }
+    ASSERT_TRUE(field.update(rays));
+    std::vector<FieldQuery> queries;
+    for (const float side : {-1.0f, 1.0f})
+        for (float y = -0.7f; y < 0.75f; y += 0.2f)
+            for (float z = 0.2f; z < 0.95f; z += 0.1f)
+                for (const glm::vec3 viewer : {glm::vec3(0), glm::vec3(-side, 0, 0)})
+                    queries.push_back({{side * 0.2f, y, z}, {-side, 0, 0}, viewer});
+    const auto mean = [&] {
+        double sum = 0;
+        for (const glm::vec3& e : ask(field, queries)) sum += double(e.x);
+        return sum / double(queries.size());
+    };
+    EXPECT_LT(mean(), 1e-3);
+    changeSettings(field, [](FieldSettings& s) { s.guard = LeakGuard::none; });
+    EXPECT_GT(mean(), 0.5);
+}
+
 }  // namespace
 }  // namespace probegi::test

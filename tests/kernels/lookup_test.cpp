@@ -333,10 +333,12 @@ TEST(Guards, momentsTestTheBiasedPoint) {
               chebyshevWeight(0.25f, 0.125f, 0.5f, kRulesMeasured));
     EXPECT_EQ(momentsBetween(field, v, 7, 1, vec3(1, 0, 0), 1.25f, vec3(0.0f)),
               guardSeen(field, v, 7, 0, vec3(1.25f, 0, 0), noGuardPoint()));
-    EXPECT_EQ(guardFar(field, v, 7, vec3(1.25f, 0, 0)), guardSeen(field, v, 7, 0, vec3(1.25f, 0, 0), noGuardPoint()));
-    EXPECT_EQ(guardFar(field, v, 7, vec3(9, 0, 0)), chebyshevFloor(kRulesMeasured));
+    const vec3 begin = guardBegin(field, v, Cage());
+    EXPECT_EQ(guardFar(field, v, 7, vec3(1.25f, 0, 0), begin),
+              guardSeen(field, v, 7, 0, vec3(1.25f, 0, 0), noGuardPoint()));
+    EXPECT_EQ(guardFar(field, v, 7, vec3(9, 0, 0), begin), chebyshevFloor(kRulesMeasured));
     EXPECT_EQ(momentsSeen(field, v, 8, 0, vec3(1.25f, 0, 0), noGuardPoint()), chebyshevFloor(kRulesMeasured));
-    EXPECT_EQ(momentsFar(field, v, 8, vec3(1.25f, 0, 0)), chebyshevFloor(kRulesMeasured));
+    EXPECT_EQ(momentsFar(field, v, 8, vec3(1.25f, 0, 0), begin), chebyshevFloor(kRulesMeasured));
     // Maps are stored by world directions: the volume's x is the world's -z here.
     Volume turned = v;
     turned.turned = 1;
@@ -353,8 +355,10 @@ TEST(Guards, noneGuardsNothing) {
     field.moments = [](int, vec3) { return vec2(0.0f); };
     EXPECT_EQ(guardSeen(field, v, 7, 0, vec3(1, 0, 0), noGuardPoint()), 1.0f);
     EXPECT_EQ(guardBetween(field, v, 7, 1, vec3(1, 0, 0), 1.0f, vec3(0.0f)), 1.0f);
-    EXPECT_EQ(guardFar(field, v, 7, vec3(1, 0, 0)), 1.0f);
-    EXPECT_EQ(noneSeen(field, v, 7, 0, vec3(1, 0, 0), noGuardPoint()) * noneFar(field, v, 7, vec3(1, 0, 0)), 1.0f);
+    const vec3 begin = noneBegin(field, v, Cage());
+    EXPECT_EQ(guardFar(field, v, 7, vec3(1, 0, 0), begin), 1.0f);
+    EXPECT_EQ(noneSeen(field, v, 7, 0, vec3(1, 0, 0), noGuardPoint()), 1.0f);
+    EXPECT_EQ(noneFar(field, v, 7, vec3(1, 0, 0), begin), 1.0f);
     EXPECT_EQ(noneBetween(field, v, 7, 1, vec3(1, 0, 0), 1.0f, vec3(0.0f)), 1.0f);
 }
 

@@ -109,16 +109,5 @@ TEST(SdfClearance, nearBoxes) {
     EXPECT_TRUE(sdfIsNear(blocker, {1e6f, 0, 0}, vec3(0.0f)));
 }
 
-TEST(SdfClearance, directionsAreTurnedAndBack) {
-    SdfDice dice;
-    SdfSolid solid = randomSolid(dice, kSdfBox);
-    const vec3 way(1, 2, -3);
-    EXPECT_LT(length(sdfOwnDirection(solid, way) - sdfToLocal(solid, way)), 1e-6f);
-    EXPECT_LT(length(sdfWorldDirection(solid, sdfOwnDirection(solid, way)) - way), 1e-5f);
-    solid.rotation = {0, 0, 0, 1};
-    EXPECT_EQ(sdfOwnDirection(solid, way), way);
-    EXPECT_EQ(sdfWorldDirection(solid, way), way);
-}
-
 }  // namespace
 }  // namespace probegi::kernels

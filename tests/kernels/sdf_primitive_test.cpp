@@ -134,6 +134,20 @@ TEST(SdfPrimitive, surfaceNormalIsTheGradient) {
 }
 
 // Centres and axes have no one gradient; what is returned is unit all the same.
+TEST(SdfPrimitive, directionsAreTurnedAndBack) {
+    SdfDice dice;
+    SdfSolid solid = plainSolid(kSdfBox, vec3(1.0f));
+    solid.rotation = {0, std::sqrt(0.5f), 0, std::sqrt(0.5f)};  // its x axis is the world's -z
+    EXPECT_LT(length(sdfToWorld(solid, {1, 0, 0}) - vec3(0, 0, -1)), 1e-6f);
+    EXPECT_LT(length(sdfToLocal(solid, {0, 0, -1}) - vec3(1, 0, 0)), 1e-6f);
+    solid.rotation = dice.rotation();
+    const vec3 way(1, 2, -3);
+    EXPECT_LT(length(sdfToWorld(solid, sdfToLocal(solid, way)) - way), 1e-5f);
+    solid.rotation = {0, 0, 0, 1};
+    EXPECT_EQ(sdfToLocal(solid, way), way);
+    EXPECT_EQ(sdfToWorld(solid, way), way);
+}
+
 TEST(SdfPrimitive, centresHaveAUnitGradient) {
     for (const uint shape : kSdfShapes) {
         const SdfSolid solid = plainSolid(shape, {0.5f, 0.5f, 0.5f}, 0.5f);

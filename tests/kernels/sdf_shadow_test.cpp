@@ -52,6 +52,10 @@ GuardPoint noteOf(const SolidField& field, const Volume& v, vec3 point, vec3 nor
     return sdfShadowPoint(field, v, cage, cageSlots(v, cage.base));
 }
 
+vec3 beginOf(const SolidField& field, const Volume& v, vec3 point, vec3 normal) {
+    return sdfShadowBegin(field, v, cageAround(v, point, normal, normal, 0.3f, kRulesMeasured));
+}
+
 TEST(SdfShadow, nothingIsHiddenInTheOpen) {
     const SolidField field({});
     const GuardPoint note = noteOf(field, oneCell(), vec3(0.3f), {0, 1, 0});
@@ -134,9 +138,62 @@ TEST(SdfShadow, whoSeesNoProbeAsksTheMoments) {
     const Volume v = oneCell();
     const GuardPoint note = noteOf(field, v, vec3(0.5f), {0, 1, 0});
     for (int corner = 0; corner < 8; ++corner) EXPECT_EQ(sdfShadowSeen(field, v, corner, corner, vec3(1), note), 0.0f);
-    const vec3 fromLowest(0.5f);
-    EXPECT_EQ(sdfShadowFar(field, v, 0, fromLowest), kShutIn * momentsFar(field, v, 0, fromLowest));
-    EXPECT_EQ(sdfShadowFar(field, v, 0, vec3(0.2f)), 1.0f) << "not behind the boxes";
+    const vec3 fromLowest(0.5f), begin = beginOf(field, v, vec3(0.5f), {0, 1, 0});
+    EXPECT_EQ(sdfShadowFar(field, v, 0, fromLowest, begin), kShutIn * momentsFar(field, v, 0, fromLowest, begin));
+    EXPECT_EQ(sdfShadowFar(field, v, 0, fromLowest, vec3(0.2f)), 1.0f) << "not behind the boxes";
+}
+
+// A corridor narrower than the bias by which moments are asked: its wall looks past the other one.
+TEST(SdfShadow, neighboursBeyondANarrowCorridorAreHidden) {
+    const SolidField field({box({0.3f, 0.5f, 0.5f}, {0.02f, 3, 3}), box({0.5f, 0.5f, 0.5f}, {0.02f, 3, 3})});
+    const Volume v = oneCell();
+    const vec3 point(0.32f, 0.5f, 0.5f), normal(1, 0, 0);
+    const Cage cage = cageAround(v, point, normal, normal, 0.3f, kRulesMeasured);
+    ASSERT_GT(point.x + cage.bias.x, 0.52f);
+    const vec3 begin = sdfShadowBegin(field, v, cage);
+    EXPECT_LT(length(begin - vec3(0.34f, 0.5f, 0.5f)), 1e-6f);
+    for (int slot = 0; slot < 8; ++slot) {
+        const vec3 fromProbe = point + cage.bias - vec3(slot & 1, (slot >> 1) & 1, slot >> 2);
+        EXPECT_EQ(sdfShadowFar(field, v, slot, fromProbe, begin),
+                  kShutIn * momentsFar(field, v, slot, fromProbe, begin));
+    }
+    const SolidField open({field.solids[0]});
+    for (int slot = 0; slot < 8; ++slot) {
+        const vec3 fromProbe = point + cage.bias - vec3(slot & 1, (slot >> 1) & 1, slot >> 2);
+        const float seen = sdfShadowFar(open, v, slot, fromProbe, sdfShadowBegin(open, v, cage));
+        EXPECT_EQ(seen == 1.0f, (slot & 1) == 1) << slot;
+        EXPECT_EQ(seen < kShutIn * 1.001f, (slot & 1) == 0) << slot;
+    }
+}
+
+// In a turned volume ways to its neighbours begin and end where they do in the world.
+TEST(SdfShadow, neighboursOfTurnedVolumes) {
+    const SolidField field({box({0, 0.5f, -0.5f}, {3, 3, 0.01f})});
+    Volume v = oneCell();
+    v.turned = 1;
+    v.orientation = vec4(0, std::sqrt(0.5f), 0, std::sqrt(0.5f));  // its x axis is the world's -z
+    const vec3 begin = beginOf(field, v, {0.5f, 0.5f, -0.3f}, {0, 0, 1});
+    EXPECT_LT(length(begin - vec3(0.5f, 0.5f, -0.28f)), 1e-6f);
+    for (int slot = 0; slot < 8; ++slot) {
+        const float seen = sdfShadowFar(field, v, slot, vec3(0.5f), begin);
+        EXPECT_EQ(seen == 1.0f, (slot & 1) == 0) << slot;
+        EXPECT_EQ(seen < kShutIn * 1.001f, (slot & 1) == 1) << slot;
+    }
+}
+
+// The top of a cupboard below a roof, in spacings of 1.5 m: neither is a curtain.
+TEST(SdfShadow, roofsCloseAboveACupboardHideTheSky) {
+    for (const vec2 metres : {vec2(0.2f, 0.2f), vec2(0.15f, 0.15f), vec2(0.05f, 0.15f)}) {
+        const float roof = metres.x / 1.5f, gap = metres.y / 1.5f;
+        const SolidField field(
+            {box({0.5f, 0.1f, 0.5f}, {0.3f, 0.4f, 0.3f}), box({0.5f, 0.5f + gap + roof / 2, 0.5f}, {3, roof / 2, 3})});
+        const GuardPoint note = noteOf(field, oneCell(), vec3(0.5f), {0, 1, 0});
+        for (const int corner : {2, 3, 6, 7}) EXPECT_EQ(note.seen[corner], 0.0f) << metres.x << ' ' << metres.y;
+    }
+    // A fold behind the box of its curtain, 1 cm thick and 5 cm in front of it.
+    const SolidField curtain({box({0.5f, 0.5f + 0.055f / 1.5f, 0.5f}, {3, 0.005f / 1.5f, 3})});
+    const GuardPoint note = noteOf(curtain, oneCell(), vec3(0.5f), {0, 1, 0});
+    for (int corner = 0; corner < 8; ++corner) EXPECT_EQ(note.seen[corner], (corner & 2) != 0 ? 1.0f : 0.0f) << corner;
 }
 
 // The probe in slot 2 and the one beside it along x have a wall between them, others have none.

@@ -46,8 +46,33 @@ TEST(SdfWayOut, throughWhatIsThinAndClose) {
     EXPECT_EQ(sdfBoxThrough(curtain, {-0.005f, 0, 0}, {1, 0, 0}, 0.15f), 0) << "the point is inside";
     EXPECT_EQ(sdfBoxThrough(curtain, {-0.08f, 3, 0}, {1, 0, 0}, 0.15f), 0) << "it is beside the point";
     EXPECT_EQ(sdfBoxThrough({1, 2, 2}, {-1.08f, 0, 0}, {1, 0, 0}, 0.15f), 0) << "it is a wall";
+    EXPECT_EQ(sdfBoxThrough({0.05f, 2, 2}, {-0.15f, 0, 0}, {1, 0, 0}, 0.15f), 0) << "gap and wall together";
     const vec3 way = sdfWayOutOf(plainSolid(kSdfBox, curtain), {-0.08f, 0, 0}, {1, 0, 0}, 0.02f, 0.15f);
     EXPECT_LT(length(way - vec3(0.11f, 0, 0)), 1e-6f);
+}
+
+// Scenes may be in any unit: where all lengths are so many times as large, ways are too.
+TEST(SdfWayOut, growWithTheScene) {
+    SdfDice dice;
+    for (const uint shape : kSdfShapes) {
+        int moved = 0;
+        for (int i = 0; i < 500; ++i) {
+            SdfSolid solid = plainSolid(shape, dice.vector(0.3f, 1));
+            solid.rounding = 0.1f;
+            const vec3 p = dice.vector(-1, 1), normal = dice.direction();
+            const vec3 way = sdfWayOutOf(solid, p, normal, 0.02f, 0.06f);
+            if (way == vec3(0.0f)) continue;
+            ++moved;
+            for (const float scale : {1.0f / 1024, 1.0f / 128, 128.0f}) {
+                SdfSolid other = solid;
+                other.halfSize = solid.halfSize * scale;
+                other.rounding = solid.rounding * scale;
+                const vec3 scaled = sdfWayOutOf(other, p * scale, normal, 0.02f * scale, 0.06f * scale);
+                EXPECT_LT(length(scaled / scale - way), 1e-4f * length(way)) << shape << ' ' << i << ' ' << scale;
+            }
+        }
+        EXPECT_GT(moved, 20) << shape;
+    }
 }
 
 TEST(SdfWayOut, ofAllShapes) {

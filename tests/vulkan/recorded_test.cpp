@@ -493,6 +493,9 @@ TEST_F(VulkanRecorded, masksAreLookedUp) {
     EXPECT_LE(differing(byShader, again), 2);
     EXPECT_GT(differing(of[1], few), 2) << "masks decide";
     EXPECT_GT(differing(withoutMasks, again), 2) << "this shader does not read them";
+    FieldSetup byMoments = world.desc;
+    byMoments.guard = LeakGuard::moments;
+    EXPECT_LE(differing(withoutMasks, byMoments), 2);
     for (const glm::vec3& e : valuesOf(withoutMasks)) ASSERT_TRUE(finite(e));
     FieldSetup other = few;
     other.volumes[0].spacing.x *= 2;

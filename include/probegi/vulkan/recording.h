@@ -127,9 +127,9 @@ public:
     const FieldDesc& desc() const noexcept { return control().desc(); }
     FieldMemory memory() const noexcept;  ///< of GPU memory
 
-    /// Uploads the settings, and new masks, for the shaders that read the field (those with LeakGuard::masks define
-    /// PROBEGI_MASKS), for engines that change them between updates. Orders itself against what comes before and after
-    /// in the queue; nothing where nothing has changed. Errors: outOfMemory.
+    /// Uploads the settings, new masks and primitives, for the shaders that read the field (with LeakGuard::masks and
+    /// sdfShadow they define PROBEGI_MASKS), for engines that change them between updates. Orders itself against what
+    /// comes before and after in the queue; nothing where nothing has changed. Errors: outOfMemory.
     Result<void> recordSettings(VkCommandBuffer commands);
 
     /// Clears the probes and restarts at frame 0. Record it once before any other use, and to discard all light (a new

@@ -1,4 +1,4 @@
-// The list of leak guards: which of the probes around a point it may use. A guard is a header of this folder with four
+// The list of leak guards: which of the probes around a point it may use. A guard is a header of this folder with five
 // functions (Access and GuardPoint are lookup/access.h's), of which three say 0..1:
 //
 //     // What the guard notes of a point, once, for the eight calls of the next. `slots`: of the cage's probes
@@ -9,10 +9,13 @@
 //     // How far a probe sees the one that stands `distance` metres away along an axis of the volume, 2 axis + up being
 //     // `side`. `along`: axisPoint(); `front`: where it stands
 //     Real NAMEBetween(Access access, Volume v, Int slot, Int side, MapPoint along, Real distance, Real3 front)
-//     // NAMESeen() for the neighbours of a cage with too little weight, of one point in plain C++ and GLSL
-//     Real NAMEFar(Access access, Volume v, Int slot, Real3 fromProbe)
+//     // For a cage with too little weight, of one point in plain C++ and GLSL: where its ways to neighbours
+//     // begin, once for the calls of the next; in the world, metres. A guard that goes no ways says 0
+//     Real3 NAMEBegin(Access access, Volume v, Cage cage)
+//     // NAMESeen() for a neighbour
+//     Real NAMEFar(Access access, Volume v, Int slot, Real3 fromProbe, Real3 begin)
 //
-// Vectors are in the volume's frame. A new guard has one include and one row here, and nothing else in kernels or
+// Other vectors are in the volume's frame. A new guard has one include and one row here, and nothing else in kernels or
 // shaders. In lanes (src/cpu/lanes-inl.h) this list and its headers are read a second time: hence KERNELS_IN_LANES.
 #ifndef PROBEGI_KERNELS_LIST_H
 #define PROBEGI_KERNELS_LIST_H
@@ -24,11 +27,11 @@
 #include "kernels/guards/masks.h"
 #include "kernels/guards/sdf_shadow.h"
 
-// Number, and the four functions, in the order of probegi::LeakGuard.
-#define PROBEGI_GUARDS(GUARD)                                       \
-    GUARD(0, nonePoint, noneSeen, noneBetween, noneFar)             \
-    GUARD(1, momentsPoint, momentsSeen, momentsBetween, momentsFar) \
-    GUARD(2, masksPoint, masksSeen, masksBetween, masksFar)         \
-    GUARD(3, sdfShadowPoint, sdfShadowSeen, sdfShadowBetween, sdfShadowFar)
+// Number, and the five functions, in the order of probegi::LeakGuard.
+#define PROBEGI_GUARDS(GUARD)                                                     \
+    GUARD(0, nonePoint, noneSeen, noneBetween, noneBegin, noneFar)                \
+    GUARD(1, momentsPoint, momentsSeen, momentsBetween, momentsBegin, momentsFar) \
+    GUARD(2, masksPoint, masksSeen, masksBetween, masksBegin, masksFar)           \
+    GUARD(3, sdfShadowPoint, sdfShadowSeen, sdfShadowBetween, sdfShadowBegin, sdfShadowFar)
 
 #endif

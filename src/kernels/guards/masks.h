@@ -1,7 +1,8 @@
 // Baked visibility (Zhou et al., "Fast Probe-Leaking Elimination Using Mask Decomposition", section 3). Each place sees
 // some clusters of probes, and its answer is the mean of theirs: eq. 3, divided by the same sum of the weights alone.
 // (As printed it darkens: m g are not normalised.) That sum over clusters is one over the eight probes of the cage with
-// phi m[g] for weights, so a look-up does what it does with any guard. Where a place sees no cluster, distance moments
+// phi m[g] for weights, so a look-up does what it does with any guard. Of that it keeps what eq. 3 does not have: the
+// weights by facing, and the crush of small ones (cage_weights.h). Where a place sees no cluster, distance moments
 // tell. What a guard's functions mean is in list.h.
 //
 // The words (maskWord() of lookup/access.h): of each slot two, then the cubes.
@@ -131,8 +132,12 @@ LOOKUP_FN Real masksBetween(IN(Access) access, IN(Volume), Int slot, Int side, O
     return toReal(shiftedRight(links, side + Int(8)) & Int(1));
 }
 
-LOOKUP_FN Real masksFar(IN(Access) access, IN(Volume) v, Int slot, Real3 fromProbe) {
-    return momentsFar(access, v, slot, fromProbe);
+LOOKUP_FN Real3 masksBegin(IN(Access), IN(Volume), IN(Cage)) {
+    return Real3(vec3(0.0f));
+}
+
+LOOKUP_FN Real masksFar(IN(Access) access, IN(Volume) v, Int slot, Real3 fromProbe, Real3 begin) {
+    return momentsFar(access, v, slot, fromProbe, begin);
 }
 
 KERNELS_END

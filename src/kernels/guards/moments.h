@@ -36,7 +36,11 @@ LOOKUP_FN Real momentsBetween(IN(Access) access, IN(Volume) v, Int slot, Int, OF
     return chebyshevWeight(mean, meanSquare, distance * v.inverseMaxDistance, access.rules);
 }
 
-LOOKUP_FN Real momentsFar(IN(Access) access, IN(Volume) v, Int slot, Real3 fromProbe) {
+LOOKUP_FN Real3 momentsBegin(IN(Access), IN(Volume), IN(Cage)) {
+    return Real3(vec3(0.0f));
+}
+
+LOOKUP_FN Real momentsFar(IN(Access) access, IN(Volume) v, Int slot, Real3 fromProbe, Real3) {
     const Real distance = length(fromProbe) + kNoLength;
     const OF_ACCESS(MapPoint) at = visibilityPoint(access, toWorldDirection(v, fromProbe / distance));
     Real mean;

@@ -19,7 +19,11 @@ LOOKUP_FN Real noneBetween(IN(Access), IN(Volume), Int, Int, OF_ACCESS(MapPoint)
     return Real(1.0f);
 }
 
-LOOKUP_FN Real noneFar(IN(Access), IN(Volume), Int, Real3) {
+LOOKUP_FN Real3 noneBegin(IN(Access), IN(Volume), IN(Cage)) {
+    return Real3(vec3(0.0f));
+}
+
+LOOKUP_FN Real noneFar(IN(Access), IN(Volume), Int, Real3, Real3) {
     return Real(1.0f);
 }
 

@@ -1,5 +1,5 @@
 // The whole look-up in one volume: cage, weights, gather, and the neighbours where the cage has too little weight.
-// A guard that brings a storage and a gather of its own (masks) branches off in answerIn(), before the cage.
+// A guard that brings a storage and a gather of its own takes the place of irradianceIn().
 #ifndef PROBEGI_KERNELS_IRRADIANCE_H
 #define PROBEGI_KERNELS_IRRADIANCE_H
 
@@ -16,6 +16,7 @@ struct VolumeAnswer {
 
 // The answer of the cage's neighbours; black only where all of them stand in walls or are new. `at`: irradiancePoint().
 LOOKUP_FN VolumeAnswer neighboursAnswer(IN(Access) access, IN(Volume) v, IN(Cage) cage, OF_ACCESS(MapPoint) at) {
+    const vec3 begin = guardBegin(access, v, cage);
     vec3 sum = vec3(0.0f);
     float weightSum = 0.0f;
     for (int i = 0; i < kNeighbours; ++i) {
@@ -26,7 +27,7 @@ LOOKUP_FN VolumeAnswer neighboursAnswer(IN(Access) access, IN(Volume) v, IN(Cage
         if (outside <= 0.0f) continue;
         vec3 toProbe = probePlace(v, cell) - cage.position;
         if (v.relocated != 0) toProbe += probeOffset(v, storedPlacement(access, slot));
-        const float visible = guardFar(access, v, slot, cage.bias - toProbe);
+        const float visible = guardFar(access, v, slot, cage.bias - toProbe, begin);
         const float weight = neighbourWeight(outside, toProbe, cage.normal, visible, v.minSpacing);
         const vec3 stored = storedIrradiance(access, slot, at);
         sum +=

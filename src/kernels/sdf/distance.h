@@ -5,8 +5,19 @@
 
 #include "kernels/lanes.h"
 #include "kernels/sdf/sdf_solid.h"
+#include "kernels/volume/volume_frame.h"
 
 KERNELS_BEGIN
+
+// Directions of the world in the solid's frame, and back; most boxes stand along the world's axes.
+KERNEL_FN Real3 sdfToLocal(SdfSolid solid, Real3 direction) {
+    if (solid.rotation.w == 1.0f) return direction;
+    return turnedBy(vec3(-solid.rotation.x, -solid.rotation.y, -solid.rotation.z), solid.rotation.w, direction);
+}
+KERNEL_FN Real3 sdfToWorld(SdfSolid solid, Real3 direction) {
+    if (solid.rotation.w == 1.0f) return direction;
+    return turnedBy(vec3(solid.rotation.x, solid.rotation.y, solid.rotation.z), solid.rotation.w, direction);
+}
 
 // How far a point is beyond each pair of faces of a box, or (negative) inside them.
 KERNEL_FN Real3 sdfBeyondFaces(vec3 halfSize, Real3 p) {

@@ -4,7 +4,6 @@
 
 #include "kernels/sdf/distance.h"
 #include "kernels/shade/surface.h"
-#include "kernels/volume/volume_frame.h"
 
 KERNELS_BEGIN
 
@@ -14,13 +13,6 @@ struct SdfPaint {
     vec3 emission;  // W sr^-1 m^-2
     int faces;      // number of the first texel of its faces (face_texels.h); -1: none
 };
-
-KERNEL_FN vec3 sdfToLocal(SdfSolid solid, vec3 direction) {
-    return turnedBy(vec3(-solid.rotation.x, -solid.rotation.y, -solid.rotation.z), solid.rotation.w, direction);
-}
-KERNEL_FN vec3 sdfToWorld(SdfSolid solid, vec3 direction) {
-    return turnedBy(vec3(solid.rotation.x, solid.rotation.y, solid.rotation.z), solid.rotation.w, direction);
-}
 
 // Signed distance from a point in the world, metres.
 KERNEL_FN float sdfDistance(SdfSolid solid, vec3 point) {

@@ -35,9 +35,10 @@ KERNEL_FN Real3 sdfBoxWayOut(vec3 halfSize, Real3 p, Real3 normal, float beyond)
         leaves);
 }
 
-// The same of any shape, along the gradient of its distance.
+// The same of any shape, along the gradient of its distance; `beyond` > 0, which is the measure of the steps by which
+// that is found.
 KERNEL_FN Real3 sdfSearchedWayOut(SdfSolid solid, Real3 p, Real3 normal, float beyond) {
-    const float step = 1e-3f;
+    const float step = 0.05f * beyond;
     const Real distance = sdfLocalDistance(solid, p);
     const Real3 rise = Real3(sdfLocalDistance(solid, p + Real3(vec3(step, 0.0f, 0.0f))) - distance,
                              sdfLocalDistance(solid, p + Real3(vec3(0.0f, step, 0.0f))) - distance,
@@ -51,7 +52,7 @@ KERNEL_FN Real awayFromZero(Real x) {
     return signNotZero(x) * max(abs(x), Real(1e-6f));
 }
 
-// Through a box that is thin and close in front of a point, both less than `reach` metres along its normal: the folds
+// Through a box that is thin and close in front of a point, all of it within `reach` metres along its normal: the folds
 // of a curtain lie before and behind the one box that stands for it. 0: there is no such box, or the point is inside.
 KERNEL_FN Real sdfBoxThrough(vec3 halfSize, Real3 p, Real3 normal, float reach) {
     const Real3 slow = Real3(Real(1.0f) / awayFromZero(normal.x), Real(1.0f) / awayFromZero(normal.y),
@@ -62,7 +63,7 @@ KERNEL_FN Real sdfBoxThrough(vec3 halfSize, Real3 p, Real3 normal, float reach) 
     const Real3 leaves = middle + reaches;
     const Real entry = max(enters.x, max(enters.y, enters.z));
     const Real exit = min(leaves.x, min(leaves.y, leaves.z));
-    return select(Real(0.0f) < entry && entry < exit && entry < reach && exit - entry < reach, exit, Real(0.0f));
+    return select(Real(0.0f) < entry && entry < exit && exit < reach, exit, Real(0.0f));
 }
 
 // `p` and `normal` in the solid's frame; the way out ends `beyond` metres from its surface.

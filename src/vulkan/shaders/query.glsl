@@ -138,7 +138,8 @@ Access probegiAccess() {
     access.maskPacked = probegiField.maskPacked;
     access.blockers = probegiField.blockerCount;
 #ifndef PROBEGI_MASKS
-    if (access.guard == 3) access.guard = 1;  // rows of kernels/guards/list.h
+    // Rows of kernels/guards/list.h: moments in place of masks and sdfShadow.
+    if (access.guard == 2 || access.guard == 3) access.guard = 1;
 #endif
     return access;
 }
@@ -172,7 +173,7 @@ int maskWord(Access access, int number) {
 #ifdef PROBEGI_MASKS
     return ProbegiMaskWords(probegiField.masks).at[number];
 #else
-    return 0;  // blind everywhere
+    return 0;  // not asked
 #endif
 }
 SdfBlocker blockerAt(Access access, int number) {

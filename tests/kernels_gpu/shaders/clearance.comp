@@ -19,8 +19,6 @@ void evaluate(INOUT(Lane) lane) {
     give(lane, max(sdfSearchedClearance(solid, from, way), -1.0f), 2e-3f);
     give(lane, max(sdfClearance(solid, from, way), -1.0f), max(edge, 2e-3f));
     give(lane, sdfEndClearance(solid, from + way), 1e-5f);
-    giveVec3(lane, sdfOwnDirection(solid, way), 1e-5f);
-    giveVec3(lane, sdfWorldDirection(solid, way), 1e-5f);
     SdfBlocker blocker;
     blocker.solid = solid;
     blocker.reach = vec3(0.5f);

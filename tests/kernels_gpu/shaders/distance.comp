@@ -5,8 +5,13 @@
 #include "kernels/sdf/distance.h"
 
 void evaluate(INOUT(Lane) lane) {
-    const SdfSolid solid = takeSolid(lane);
+    SdfSolid solid = takeSolid(lane);
     const vec3 p = takeVector(lane, -1.4f, 1.3f);
+    giveVec3(lane, sdfToLocal(solid, p), 1e-5f);
+    giveVec3(lane, sdfToWorld(solid, p), 1e-5f);
+    solid.rotation = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    giveVec3(lane, sdfToLocal(solid, p), 0.0f);
+    giveVec3(lane, sdfToWorld(solid, p), 0.0f);
     give(lane, sdfLocalDistance(solid, p), 1e-5f);
     giveVec3(lane, sdfBeyondFaces(solid.halfSize, p), 1e-6f);
     give(lane, sdfBoxDistance(solid.halfSize, p), 1e-6f);

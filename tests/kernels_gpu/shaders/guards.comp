@@ -14,6 +14,7 @@ void evaluate(INOUT(Lane) lane) {
         give(lane, guardSeen(access, v, 6, 3, fromProbe, noGuardPoint()), 5e-4f);
         give(lane, guardSeen(access, v, 6, 3, fromProbe, guardPoint(access, v, cage, cageSlots(v, cage.base))), 0.02f);
         give(lane, guardBetween(access, v, 6, 4, axisPoint(access, v, 2, false), 1.0f, fromProbe), 5e-4f);
-        give(lane, guardFar(access, v, 6, fromProbe), 5e-4f);
+        const vec3 begin = guardBegin(access, v, cage);
+        give(lane, guardFar(access, v, 6, fromProbe, begin), guard == 3 ? 0.05f : 5e-4f);
     }
 }

@@ -7,7 +7,7 @@
 // Rows are numbered from 0.
 void evaluate(INOUT(Lane) lane) {
     int row = 0;
-#define GUARD(number, point, seen, between, farther) giveBits(lane, number == row++ ? 1u : 0u);
+#define GUARD(number, point, seen, between, origin, farther) giveBits(lane, number == row++ ? 1u : 0u);
     PROBEGI_GUARDS(GUARD)
 #undef GUARD
 }

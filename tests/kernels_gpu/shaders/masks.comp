@@ -41,6 +41,7 @@ void evaluate(INOUT(Lane) lane) {
     if (abs(length(fromProbe) * v.inverseMaxDistance - 1.0f) < 1e-3f)
         give(lane, 0.0f, 0.0f);
     else
-        give(lane, masksFar(access, v, 5, fromProbe), 5e-4f);
+        give(lane, masksFar(access, v, 5, fromProbe, vec3(0.0f)), 5e-4f);
+    giveVec3(lane, masksBegin(access, v, cage), 0.0f);
     giveBits(lane, uint(shiftedRight(-1 - cube, cube & 31)));
 }

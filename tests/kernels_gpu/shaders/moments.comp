@@ -17,9 +17,10 @@ void evaluate(INOUT(Lane) lane) {
     give(lane, momentsPoint(access, v, cage, cageSlots(v, cage.base)).scale, 0.0f);
     give(lane, momentsSeen(access, v, 5, 0, fromProbe, noGuardPoint()), 5e-4f);
     give(lane, momentsBetween(access, v, 5, 3, axisPoint(access, v, 1, true), distance, fromProbe), 5e-4f);
+    giveVec3(lane, momentsBegin(access, v, cage), 0.0f);
     // The result is discontinuous at the farthest distance.
     if (abs(length(fromProbe) * v.inverseMaxDistance - 1.0f) < 1e-3f)
         give(lane, 0.0f, 0.0f);
     else
-        give(lane, momentsFar(access, v, 5, fromProbe), 5e-4f);
+        give(lane, momentsFar(access, v, 5, fromProbe, vec3(0.0f)), 5e-4f);
 }

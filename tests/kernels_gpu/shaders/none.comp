@@ -13,5 +13,6 @@ void evaluate(INOUT(Lane) lane) {
     give(lane, nonePoint(access, v, cage, cageSlots(v, cage.base)).scale, 0.0f);
     give(lane, noneSeen(access, v, 3, 0, fromProbe, noGuardPoint()), 0.0f);
     give(lane, noneBetween(access, v, 3, 1, fromProbe, 1.0f, fromProbe), 0.0f);
-    give(lane, noneFar(access, v, 3, fromProbe), 0.0f);
+    giveVec3(lane, noneBegin(access, v, cage), 0.0f);
+    give(lane, noneFar(access, v, 3, fromProbe, fromProbe), 0.0f);
 }

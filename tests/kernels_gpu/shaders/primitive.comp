@@ -12,8 +12,6 @@ void evaluate(INOUT(Lane) lane) {
     give(lane, sdfRounding(solid), 0.0f);
     give(lane, sdfDistance(solid, point - sdfGradient(solid, point) * distance), 1e-5f);
     give(lane, length(sdfSurfaceNormal(solid, point)), 1e-5f);
-    giveVec3(lane, sdfToLocal(solid, point), 1e-5f);
-    giveVec3(lane, sdfToWorld(solid, point), 1e-5f);
     give(lane, sdfLocalDistance(solid, point), 1e-5f);
     give(lane, dot(sdfSurfaceNormal(solid, point), sdfGradient(solid, point)) > 0.5f ? 1.0f : 0.0f, 0.0f);
 

@@ -18,11 +18,12 @@ void evaluate(INOUT(Lane) lane) {
     bool apart = true;
     for (int i = 0; i < access.blockers; ++i) {
         const SdfSolid solid = blockerAt(access, i).solid;
-        const vec3 own = sdfOwnDirection(solid, cage.position - solid.centre);
+        const vec3 own = sdfToLocal(solid, cage.position - solid.centre);
         apart = apart && sdfLocalDistance(solid, own) > 0.2f * v.minSpacing;
     }
     if (apart) {
         giveVec3(lane, shadowBegin(access, cage.position, cage.normal, v.minSpacing), 1e-4f);
+        giveVec3(lane, sdfShadowBegin(access, v, cage), 1e-4f);
         const GuardPoint point = sdfShadowPoint(access, v, cage, slots);
         for (int corner = 0; corner < 8; ++corner) give(lane, point.seen[corner], 0.05f);
     }
@@ -40,5 +41,11 @@ void evaluate(INOUT(Lane) lane) {
     // Where a ball just fits, rounding of its radius counts.
     give(lane, shadowAlong(access, cage.position, fromProbe, 0.1f), 0.05f);
     give(lane, sdfShadowBetween(access, v, 5, 3, axisPoint(access, v, 1, true), 1.0f, cage.position), 0.05f);
-    give(lane, sdfShadowFar(access, v, 5, fromProbe), 0.05f);
+    give(lane, sdfShadowFar(access, v, 5, fromProbe, cage.position), 0.05f);
+    float whole = 0.3f;
+    float seen = 0.2f;
+    SdfSolid post = blockerAt(access, 0).solid;
+    shadeBall(post, vec3(0.5f), fromProbe, whole, seen);
+    give(lane, whole, 1e-5f);
+    give(lane, max(seen, 0.0f), 1e-3f);
 }

@@ -10,11 +10,11 @@
 #include "kernels/guards/masks.h"
 #include "kernels/guards/sdf_shadow.h"
 
-#define PROBEGI_GUARDS(GUARD)                                               \
-    GUARD(0, nonePoint, noneSeen, noneBetween, noneFar)                     \
-    GUARD(1, momentsPoint, momentsSeen, momentsBetween, momentsFar)         \
-    GUARD(2, masksPoint, masksSeen, masksBetween, masksFar)                 \
-    GUARD(3, sdfShadowPoint, sdfShadowSeen, sdfShadowBetween, sdfShadowFar) \
-    GUARD(4, toyPoint, toySeen, toyBetween, toyFar)
+#define PROBEGI_GUARDS(GUARD)                                                               \
+    GUARD(0, nonePoint, noneSeen, noneBetween, noneBegin, noneFar)                          \
+    GUARD(1, momentsPoint, momentsSeen, momentsBetween, momentsBegin, momentsFar)           \
+    GUARD(2, masksPoint, masksSeen, masksBetween, masksBegin, masksFar)                     \
+    GUARD(3, sdfShadowPoint, sdfShadowSeen, sdfShadowBetween, sdfShadowBegin, sdfShadowFar) \
+    GUARD(4, toyPoint, toySeen, toyBetween, toyBegin, toyFar)
 
 #endif

@@ -27,8 +27,13 @@ LOOKUP_FN Real toyBetween(IN(Access), IN(Volume), Int, Int, OF_ACCESS(MapPoint),
     return Real(0.0f);
 }
 
-LOOKUP_FN Real toyFar(IN(Access), IN(Volume), Int slot, Real3) {
-    return evenSlot(slot);
+// That this reaches the next function, too.
+LOOKUP_FN Real3 toyBegin(IN(Access), IN(Volume), IN(Cage)) {
+    return Real3(vec3(1.0f));
+}
+
+LOOKUP_FN Real toyFar(IN(Access), IN(Volume), Int slot, Real3, Real3 begin) {
+    return evenSlot(slot) * begin.x;
 }
 
 KERNELS_END
