@@ -23,7 +23,7 @@ struct Picture {
     HdrImage depth;       ///< distance from the camera in metres, in all three channels; 0 where the sky is visible
     /// Radiance of the glossy lobes, a part of `indirect`. Empty (0 x 0) but with PictureDesc::glossy.
     HdrImage glossy{};
-    /// E that surfaces on the screen send from nearby, a part of `irradiance`. Empty but with PictureDesc::contact.
+    /// E that nearby surfaces on the screen send, unblurred unlike `irradiance`. Empty but with PictureDesc::contact.
     HdrImage contact{};
     /// Share of E's directions that is open, 1 - what `contact` is from, in all three channels; 0 where the sky is
     /// visible. Empty but with PictureDesc::contact.

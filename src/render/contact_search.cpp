@@ -1,6 +1,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "kernels/screen/contact_way.h"
 #include "render/frame_pass.h"
 
 namespace probegi {
@@ -27,17 +28,16 @@ void searchSide(Frame& frame, int x, int y, const ScreenSample& from, const kern
 }
 
 kernels::ContactFound searchAround(const PictureTask& task, Frame& frame, int x, int y, const ScreenSample& from) {
-    const float widest = task.contactReach / (from.distance * kernels::pinholeSpread(task.camera, 1));
     kernels::ContactSums sums = kernels::noContact();
     const glm::vec2 random = kernels::contactPattern(x, y, task.contactRound + frame.firstPlane());
     for (int i = 0; i < kernels::kContactSlices; ++i) {
-        const glm::vec2 across = kernels::contactAcross(i, random.x);
-        const kernels::ContactSlice slice = kernels::contactSlice(
-            -from.viewDirection, task.camera.pixelRight * across.x + task.camera.pixelDown * across.y,
-            from.shadingNormal, from.geometricNormal);
+        const kernels::ContactWay way = kernels::contactWay(task.camera, from.viewDirection, i, random.x);
+        const float widest = kernels::contactWidest(way, from.distance, task.contactReach);
+        const kernels::ContactSlice slice =
+            kernels::contactSlice(-from.viewDirection, way.tangent, from.shadingNormal, from.geometricNormal);
         sums.whole += kernels::contactWhole(slice);
         for (const float sign : {-1.0f, 1.0f})
-            searchSide(frame, x, y, from, slice, sign, across, random.y, widest, task.contactReach,
+            searchSide(frame, x, y, from, slice, sign, way.across, random.y, widest, task.contactReach,
                        task.field != nullptr, sums);
     }
     return kernels::contactFound(sums, from.irradiance);

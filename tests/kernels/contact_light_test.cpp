@@ -23,24 +23,6 @@ TEST(ContactLight, sixteenPixelsHaveSixteenTurns) {
     EXPECT_EQ(phases.size(), 16u);
 }
 
-TEST(ContactLight, slicesAreEvenlyTurned) {
-    const vec2 a = contactAcross(0, 0.3f), b = contactAcross(kContactSlices - 1, 0.3f);
-    EXPECT_NEAR(length(a), 1.0f, 1e-6f);
-    EXPECT_NEAR(dot(a, b), cos(kPi * float(kContactSlices - 1) / float(kContactSlices)), 1e-6f);
-}
-
-TEST(ContactLight, stepsGoOutAndLeaveTheSample) {
-    for (const float widest : {0.5f, 5.0f, 300.0f}) {
-        float last = 0;
-        for (int i = 0; i < kContactSteps; ++i) {
-            const float step = contactStep(i, 0.4f, widest);
-            EXPECT_GE(step, last + 0.99f) << i;
-            last = step;
-        }
-        EXPECT_LE(last, std::max(widest, float(kContactSteps)));
-    }
-}
-
 // Uniform light: whatever is taken, seen or hidden behind a white side, the light stays as it was.
 TEST(ContactLight, aFurnaceStaysAsItIs) {
     const vec3 radiance(2, 1, 0.5f);

@@ -1,13 +1,11 @@
-// What the samples around a sample of the screen send to it (SDFDDGI paper, section 3.5, eq. 5).
+// What the samples around a sample of the screen send to it (SDFDDGI paper, section 3.5; not by its eq. 5, see
+// docs/architecture.md).
 #ifndef PROBEGI_KERNELS_CONTACT_LIGHT_H
 #define PROBEGI_KERNELS_CONTACT_LIGHT_H
 
 #include "kernels/screen/contact_slice.h"
 
 KERNELS_BEGIN
-
-KERNEL_CONST int kContactSlices = 2;  // of a sample, each with two sides
-KERNEL_CONST int kContactSteps = 8;   // samples of a side
 
 // Random numbers of a sample: the slices' turn and the steps' phase. 4 x 4 pixels share 16 turns, in Bayer's order, so
 // that small groups of pixels are evenly spread too; `round` numbers the planes, and pictures of a series.
@@ -20,18 +18,6 @@ KERNEL_FN vec2 contactPattern(int x, int y, int round) {
     const float turns = float(round & 1023);
     return fract(vec2((order + 0.5f) * 0.0625f, 0.5f + order * 0.6180339887f) +
                  turns * vec2(0.6180339887f, 0.7548776662f));
-}
-
-// Pixels from a sample to the `step`-th one of a side: densest near it. `widest`: pixels that the reach covers.
-KERNEL_FN float contactStep(int step, float phase, float widest) {
-    const float share = (float(step) + phase) / float(kContactSteps);
-    return max(share * share * widest, float(step + 1));
-}
-
-// A slice's direction on the screen, in pixels across and down, unit.
-KERNEL_FN vec2 contactAcross(int slice, float turn) {
-    const float angle = (float(slice) + turn) * (kPi / float(kContactSlices));
-    return vec2(cos(angle), sin(angle));
 }
 
 // Radiance of a sample, whichever way one looks: its own and its lamps', and what it reflects as Lambert surfaces do.

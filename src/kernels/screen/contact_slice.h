@@ -2,8 +2,9 @@
 // from there, and how much of the irradiance comes from the angles it takes (SDFDDGI paper, section 3.5; angles as in
 // its reference [8], GTAO).
 //
-// A slice is a plane through the viewer and the sample, which the screen shows as a line. Angles in it are from the
-// direction to the viewer, positive on the side at hand; the two sides of a slice have the same text.
+// A slice is a plane through the viewer and the sample, which the screen shows as a line (contact_way.h: slices must be
+// even around the viewer's direction). Angles in it are from the direction to the viewer, positive on the side at hand;
+// the two sides of a slice have the same text.
 #ifndef PROBEGI_KERNELS_CONTACT_SLICE_H
 #define PROBEGI_KERNELS_CONTACT_SLICE_H
 
@@ -19,7 +20,7 @@ struct ContactSlice {
     float weight;   // length of the shading normal's part
 };
 
-// `along`: the slice's direction on the screen, as a direction of the world, any length but 0.
+// `along`: the slice's direction (ContactWay::tangent); any length but 0.
 KERNEL_FN ContactSlice contactSlice(vec3 toViewer, vec3 along, vec3 shadingNormal, vec3 geometricNormal) {
     ContactSlice slice;
     slice.toViewer = toViewer;
@@ -32,7 +33,7 @@ KERNEL_FN ContactSlice contactSlice(vec3 toViewer, vec3 along, vec3 shadingNorma
 }
 
 // The integral of |sin a| cos(a - tilt) from the viewer's direction to `angle`: the part of E there, of a radiance of
-// 1, for a step of the slices' angle on the screen, over the slice's weight.
+// 1, for a step of the slices' angle around the viewer's direction, over the slice's weight.
 KERNEL_FN float contactArc(float angle, float tilt) {
     return 0.25f * (cos(tilt) - cos(2.0f * angle - tilt) + 2.0f * angle * sin(tilt));
 }

@@ -1,6 +1,8 @@
 // Horizon search around each sample, and the light of what rises above the horizon.
 #include "picture_contact.glsl"
 
+#include "kernels/screen/contact_way.h"
+
 // One side of a slice, `across` pixels across and down for each pixel along it.
 void searchSide(int x, int y, ScreenSample from, ContactSlice slice, float sign, vec2 across, float phase, float widest,
                 ContactBlock block, inout ContactSums sums) {
@@ -29,16 +31,15 @@ void main() {
     if (from.kind == kSampleSurface) {
         const int x = int(index) % push.width;
         const int y = int(index) / push.width;
-        const float widest = block.reach / (from.distance * pinholeSpread(push.camera, 1));
         const vec2 random = contactPattern(x, push.firstRow + y, block.round + push.firstPlane);
         for (int i = 0; i < kContactSlices; ++i) {
-            const vec2 across = contactAcross(i, random.x);
+            const ContactWay way = contactWay(push.camera, from.viewDirection, i, random.x);
+            const float widest = contactWidest(way, from.distance, block.reach);
             const ContactSlice slice =
-                contactSlice(-from.viewDirection, push.camera.pixelRight * across.x + push.camera.pixelDown * across.y,
-                             from.shadingNormal, from.geometricNormal);
+                contactSlice(-from.viewDirection, way.tangent, from.shadingNormal, from.geometricNormal);
             sums.whole += contactWhole(slice);
             for (int side = 0; side < 2; ++side)
-                searchSide(x, y, from, slice, float(2 * side - 1), across, random.y, widest, block, sums);
+                searchSide(x, y, from, slice, float(2 * side - 1), way.across, random.y, widest, block, sums);
         }
     }
     ContactFounds(block.found).at[index] = contactFound(sums, from.irradiance);

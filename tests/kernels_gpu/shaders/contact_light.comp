@@ -7,9 +7,6 @@ void evaluate(INOUT(Lane) lane) {
     const int y = takeIndex(lane, 9000);
     const int round = takeIndex(lane, 64);
     giveVec2(lane, contactPattern(x, y, round), 1e-3f);
-    const float turn = takeUnit(lane);
-    giveVec2(lane, contactAcross(x & 1, turn), 1e-5f);
-    give(lane, contactStep(y & 7, turn, float(x)), 1e-5f);
     const vec3 irradiance = takeVector(lane, 0.0f, 10.0f);
     const vec3 albedo = takeVector(lane, 0.0f, 0.9f);
     const vec3 radiance = contactRadiance(irradiance, albedo, irradiance);

@@ -23,4 +23,5 @@ void evaluate(INOUT(Lane) lane) {
     give(lane, steep ? found.distance : 0.0f, 1e-4f);
     give(lane, sdfBoundAfter(nearest.distance, 1.0f), 1e-5f);
     give(lane, sdfMeetsAt(origin, 3.0f), 1e-6f);
+    give(lane, sdfPredictedStep(away, 1.0f, takeBetween(lane, -0.9f, 1.2f)), 1e-4f);
 }
