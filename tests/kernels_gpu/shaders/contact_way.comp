@@ -8,7 +8,9 @@ void evaluate(INOUT(Lane) lane) {
     const float yfov = takeBetween(lane, 0.1f, 2.0f);
     const int width = 1 + takeIndex(lane, 1920);
     const int height = 1 + takeIndex(lane, 1080);
-    const PinholeCamera camera = makePinhole(vec3(0.0f), forward, up, yfov, max(width, height), height);
+    // Seen at grazing angles, which wider pictures have at their sides, ways are as long as rounding says.
+    const int sides = clamp(width, height, 4 * height);
+    const PinholeCamera camera = makePinhole(vec3(0.0f), forward, up, yfov, sides, height);
     const float x = takeBetween(lane, 0.0f, float(height));
     const float y = takeBetween(lane, 0.0f, float(height));
     const int slice = takeIndex(lane, kContactSlices);
