@@ -2,6 +2,8 @@
 
 namespace probegi::test {
 
-std::filesystem::path sourceFolder() { return PROBEGI_SOURCE_FOLDER; }
+std::filesystem::path sourceFolder() {
+    return PROBEGI_SOURCE_FOLDER;
+}
 
 }  // namespace probegi::test
