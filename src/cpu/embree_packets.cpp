@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 
 #include "core/float_mode.h"
 
@@ -41,13 +42,15 @@ int inRange(float x) {
     return std::abs(x) <= kLargest ? 1 : 0;
 }
 
-/// Embree's mask of lanes with usable rays: -1 or 0. Branch-free, for SIMD.
-void findUsable(const RTCRay16& r, std::size_t count, int (&valid)[kWidth]) {
+/// Embree's mask of lanes with usable rays: -1 or 0. Where Embree has no packets of 16 (AVX2), it splits them and
+/// ignores the mask, so the other lanes also get an empty interval. Branch-free, for SIMD.
+void findUsable(RTCRay16& r, std::size_t count, int (&valid)[kWidth]) {
     for (std::size_t k = 0; k < kWidth; ++k) {
         const int origin = inRange(r.org_x[k]) & inRange(r.org_y[k]) & inRange(r.org_z[k]);
         const int direction = inRange(r.dir_x[k]) & inRange(r.dir_y[k]) & inRange(r.dir_z[k]);
         const int interval = r.tnear[k] <= r.tfar[k] ? 1 : 0;
         valid[k] = -(origin & direction & interval & (k < count ? 1 : 0));
+        r.tfar[k] = valid[k] != 0 ? r.tfar[k] : -std::numeric_limits<float>::infinity();
     }
 }
 

@@ -178,7 +178,13 @@ TEST_P(TracerDistance, NonFiniteRaysHitNothing) {
     rays[9].far = nan;
     std::vector<Hit> hits(rays.size());
     tracer->closestHits(rays, hits).value();
-    for (std::size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(hits[i].valid(), i != 3 && i != 7 && i != 9) << i;
+    std::vector<std::uint8_t> blocked(rays.size());
+    tracer->occluded(rays, blocked).value();
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const bool finite = i != 3 && i != 7 && i != 9;
+        EXPECT_EQ(hits[i].valid(), finite) << i;
+        EXPECT_EQ(blocked[i] != 0, finite) << i;
+    }
 }
 
 }  // namespace probegi::test
