@@ -73,10 +73,11 @@ PROBEGI_API float signedDistance(const SdfScene& sdf, glm::vec3 point);
 /// first solid that it enters; one that starts inside hits the union's surface from within, which is solid wall
 /// (Surface::backface), at the point where it leaves the last of the solids that overlap or touch on its way; it is
 /// occluded, too, if it enters another solid before. Hit::primitive counts SdfScene::primitives, Hit::geometry is 1 for
-/// hits from within, Surface::material is -1, the roughness is 1. bounds() are without planes. emitters() is null.
-/// setPose() moves the primitives that ride on nodes of `scene`, which is read during the call only.
-/// Errors: malformed (validate()), invalidArgument (a primitive rides on a node that the scene lacks, that has no mesh
-/// or that is not scaled alike along all axes), outOfMemory.
+/// hits from within, the roughness is 1. bounds() are without planes. emitters() are the faces of boxes that emit
+/// (null: none), and Surface::material is the primitive's number on those and -1 elsewhere. setPose() moves the
+/// primitives that ride on nodes of `scene`, which is read during the call only. Errors: malformed (validate()),
+/// invalidArgument (a primitive rides on a node that the scene lacks, that has no mesh or that is not scaled alike
+/// along all axes), outOfMemory.
 PROBEGI_API Result<std::unique_ptr<MovableTracer>> makeSdfTracer(const Context& context, const SdfScene& sdf,
                                                                  const Scene& scene, const ScenePose& pose);
 

@@ -7,6 +7,7 @@
 #include "probegi/sdf.h"
 #include "sdf/paints.h"
 #include "sdf/placed_primitives.h"
+#include "sdf/sdf_emitters.h"
 
 namespace probegi {
 
@@ -15,7 +16,10 @@ namespace {
 class SdfTracer final : public MovableTracer {
 public:
     explicit SdfTracer(PlacedPrimitives placed)
-        : m_placed(std::move(placed)), m_paints(paintsOf(m_placed.primitives())), m_lanes(m_placed.solids()) {}
+        : m_placed(std::move(placed)),
+          m_paints(paintsOf(m_placed.primitives())),
+          m_lanes(m_placed.solids()),
+          m_emitters(emittersOf(m_placed.primitives(), m_placed.solids())) {}
 
     Result<void> closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override {
         assert(rays.size() == hits.size());
@@ -41,10 +45,12 @@ public:
     Result<void> setPose(const ScenePose& pose) override {
         if (auto moved = m_placed.setPose(pose); !moved) return moved;
         m_lanes = SdfLanes(m_placed.solids());
+        m_emitters = emittersOf(m_placed.primitives(), m_placed.solids());
         return {};
     }
 
     Bounds bounds() const override { return m_placed.bounds(); }
+    const EmitterSet* emitters() const override { return m_emitters.empty() ? nullptr : &m_emitters; }
 
 private:
     Surface surface(const Ray& ray, const Hit& hit) const {
@@ -59,6 +65,7 @@ private:
         s.shadingNormal = kernels::bendTowards(s.geometricNormal, -ray.direction);
         s.albedo = paint.faces < 0 ? paint.albedo : faceColour(solid, paint.faces, s.position);
         if (!within) s.emission = paint.emission;
+        s.material = emitterMaterial(m_emitters, number);
         s.back = s.backface = within;
         return s;
     }
@@ -72,6 +79,7 @@ private:
     PlacedPrimitives m_placed;
     SdfPaints m_paints;
     SdfLanes m_lanes;
+    EmitterSet m_emitters;
 };
 
 }  // namespace

@@ -7,9 +7,6 @@
 
 namespace probegi {
 
-/// Area times luminance, W sr^-1; 0 for a triangle that cannot be sampled.
-double emitterPower(const EmissiveTriangle& triangle, float luminance);
-
 /// The emissive triangles of a scene in mesh space, from which placed() makes an EmitterSet.
 class EmitterGeometry {
 public:

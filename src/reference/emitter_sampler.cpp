@@ -5,6 +5,7 @@
 
 #include "geometry/emitters.h"
 #include "kernels/sampling.h"
+#include "scene/emitter_set.h"
 
 namespace probegi {
 

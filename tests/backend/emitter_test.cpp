@@ -114,6 +114,43 @@ TEST_P(BackendEmitters, oneUpdateHasTheClosedFormOfASmallLamp) {
     RecordProperty("rms", std::to_string(looks.rms));
 }
 
+// The same of a primitive, one way up and turned over: rays carry what lamps of other shapes send.
+TEST_P(BackendEmitters, oneUpdateHasTheClosedFormOfAGlowingBox) {
+    SdfPrimitive lamp;
+    lamp.centre = {0, 2.0004f, 0};
+    lamp.halfSize = {0.1f, 0.0004f, 0.1f};  // its sides send 0.4 %
+    lamp.emission = kGlow;
+    for (const glm::quat turn : {glm::quat(1, 0, 0, 0), glm::quat(0, 1, 0, 0)}) {
+        lamp.rotation = turn;
+        const auto scene = made(GetParam().open(context));
+        const auto tracer = made(scene->openSdf({{lamp}}, {}, {}));
+        Field field = makeField(lampDesc(8));  // half of them at its upper side
+        ASSERT_TRUE(field.update(*tracer, {}));
+        const Ratios looks = compare(field, squareAt({0, 2, 0}, 0.2f));
+        EXPECT_LT(looks.rms, 0.05);
+        EXPECT_NEAR(looks.mean, 1.0, 0.02);
+    }
+}
+
+// A primitive on a node takes its light along.
+TEST_P(BackendEmitters, aGlowingBoxIsWhereThePosePutsIt) {
+    Scene scene;
+    addSquare(scene, {0, 2, 0}, 0.2f, {});
+    scene.nodes[0].name = "lamp";
+    scene.animations.push_back(
+        {0, AnimationPath::translation, Interpolation::linear, {0.0f, 1.0f}, {{0, 2, 0, 0}, {0.7f, 2.5f, 0, 0}}});
+    SdfPrimitive lamp;
+    lamp.centre = {0, 0.001f, 0};
+    lamp.halfSize = {0.1f, 0.001f, 0.1f};
+    lamp.emission = kGlow;
+    lamp.node = "lamp";
+    const auto tracer = made(made(GetParam().open(context))->openSdf({{lamp}}, scene, poseAt(scene)));
+    ASSERT_TRUE(tracer->setPose(poseAt(scene, 1.0f)));
+    Field field = makeField(lampDesc());
+    ASSERT_TRUE(field.update(*tracer, {}));
+    EXPECT_LT(compare(field, squareAt({0.7f, 2.5f, 0}, 0.2f)).rms, 0.05);
+}
+
 // Rays and looks meet a large lamp about equally often; the average of many updates is its light.
 TEST_P(BackendEmitters, raysAndLooksTogetherAreUnbiased) {
     Scene scene;

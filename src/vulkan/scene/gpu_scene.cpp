@@ -3,6 +3,7 @@
 #include "bvh/binary_tree.h"
 #include "bvh/wide_bvh.h"
 #include "geometry/lighting.h"
+#include "sdf/sdf_emitters.h"
 #include "vulkan/device/errors.h"
 #include "vulkan/scene/gpu_scene_impl.h"
 
@@ -28,8 +29,9 @@ GpuScene::Impl::Impl(const Context& context, const Device& d, const Scene& scene
         shown, shownPose, primitives ? InstancePredicate() : movableInstances(scene, desc.movable, desc.movableNodes));
     measure(geometry);
     if (type.hitsTriangles) emitterGeometry = EmitterGeometry(scene, pose);
-    emitters = emitterGeometry.placed();
+    emitters = primitives ? emittersOf(primitives->primitives(), primitives->solids()) : emitterGeometry.placed();
     data = packScene(geometry, emitters, shown, MipMaps(context, shown));
+    if (primitives && !emitters.empty()) data.materials = packEmitterMaterials(emitters);
     upload();
     tracer =
         type.make({context, device, geometry, data, vertices.address(), staging, primitives ? &*primitives : nullptr});
@@ -169,8 +171,11 @@ Result<void> GpuScene::Impl::movePrimitives(VkCommandBuffer commands, const Scen
     if (auto moved = primitives->setPose(pose); !moved) return moved;
     return guarded("moving primitives", [&] {
         bounds = primitives->bounds();
+        emitters = emittersOf(primitives->primitives(), primitives->solids());
+        const std::vector<kernels::GpuEmitter> lamps = packEmitters(emitters);
         const Recorder recorder(device.impl(), commands);
         recorder.orderAll();
+        recorder.write(emitterBuffer, std::as_bytes(std::span(lamps)));
         tracer->recordPrimitives(recorder, *primitives);
         recorder.write(constantsBuffer, bytesOf(constants()));
         recorder.orderAll();

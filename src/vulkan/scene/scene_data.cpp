@@ -153,6 +153,16 @@ std::vector<kernels::GpuEmitter> packEmitters(const EmitterSet& emitters) {
     return packed;
 }
 
+std::vector<kernels::GpuMaterial> packEmitterMaterials(const EmitterSet& emitters) {
+    std::vector<kernels::GpuMaterial> packed;
+    packed.reserve(emitters.luminance.size());
+    for (const float luminance : emitters.luminance) {
+        packed.push_back(packMaterial({}));
+        packed.back().emittedLuminance = luminance;
+    }
+    return packed;
+}
+
 kernels::GpuInstance packInstance(const Placement& placement) {
     return {glm::mat4x3(placement.toWorld), glm::mat4x3(glm::affineInverse(placement.toWorld)), placement.normalToWorld,
             placement.group + 1};

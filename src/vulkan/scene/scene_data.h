@@ -49,6 +49,8 @@ SceneData packScene(const SceneGeometry& geometry, const EmitterSet& emitters, c
                     const MipMaps& mips = {});
 
 std::vector<kernels::GpuEmitter> packEmitters(const EmitterSet& emitters);
+/// For scenes of primitives: materials that have nothing but their luminance.
+std::vector<kernels::GpuMaterial> packEmitterMaterials(const EmitterSet& emitters);
 
 /// One record of SceneData::instances, for moving placements.
 kernels::GpuInstance packInstance(const Placement& placement);

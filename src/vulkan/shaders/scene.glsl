@@ -115,6 +115,7 @@ GpuMaterial sceneMaterial(uint index) {
 
 // EmitterSet::density.
 float emitterPerArea(int material) {
+    if (material < 0) return 0.0;
     return SceneMaterials(PROBEGI_SCENE.materials).at[material].emittedLuminance * PROBEGI_SCENE.inverseEmitterPower;
 }
 

@@ -83,6 +83,11 @@ vec3 sdfFaceColourAt(SdfSolid solid, int faces, vec3 position) {
                          texels.at[first + kSdfFaceSide + 1]);
 }
 
+// emitterMaterial() in src/sdf/sdf_emitters.h.
+int sdfEmitterMaterial(int primitive) {
+    return PROBEGI_SCENE.emitterCount > 0 && emitterPerArea(primitive) > 0.0 ? primitive : -1;
+}
+
 Surface surfaceAt(Ray ray, Hit hit, float spread) {
     const SdfPaint paint = SdfPaints(sceneConstants.tracer.addresses[1]).at[hit.primitive];
     const bool within = hit.geometry == kSdfFromWithin;
@@ -96,7 +101,7 @@ Surface surfaceAt(Ray ray, Hit hit, float spread) {
     surface.emission = within ? vec3(0.0) : paint.emission;
     surface.metallic = 0.0;
     surface.roughness = 1.0;
-    surface.material = -1;
+    surface.material = sdfEmitterMaterial(hit.primitive);
     surface.back = within;
     surface.backface = within;
     return surface;

@@ -41,7 +41,8 @@ GpuTracer::GpuTracer(const Device& device, GpuScene scene)
 }
 
 const EmitterSet* GpuTracer::emitters() const {
-    return m_scene.impl().tracerType.hitsTriangles ? &m_scene.impl().emitters : nullptr;
+    const GpuScene::Impl& scene = m_scene.impl();
+    return scene.primitives && scene.emitters.empty() ? nullptr : &scene.emitters;
 }
 
 template <class Answer, class Take>
