@@ -24,6 +24,12 @@ struct SdfAccuracy {
     double leaking = 0;     ///< share of the rays that meet the scene but no primitive, 0..1
     double blockedSky = 0;  ///< share of those that meet nothing in the scene but a primitive, 0..1; 0: there are none
     double startInside = 0;  ///< share of the rays that start inside a primitive, 0..1
+    // Dim places are those with less than half of the light of open ground, below an even sky: rooms and arcades, where
+    // a closed window or a crack in a wall changes most of the light, and little of the figures above.
+    double dimRays = 0;        ///< share of the rays that start at dim places, 0..1
+    double dimSkyRays = 0;     ///< share of all rays that start there and meet nothing in the scene, 0..1
+    double dimBlockedSky = 0;  ///< share of dimSkyRays that meet a primitive: sky lost there, 0..1; 0: there are none
+    double dimLeaking = 0;     ///< those that start there and leak, over dimSkyRays: sky gained, 0..; 0: there are none
 };
 
 struct SdfFitDesc {

@@ -68,6 +68,43 @@ TEST(MeasureSdf, tellsWhatIsMissingAndWhatIsInTheWay) {
     EXPECT_EQ(all.leaking, 0);
 }
 
+/// The room of test::roomScene(true), exactly; but with its window closed, or without its ceiling.
+SdfScene roomInPrimitives(bool window, bool ceiling) {
+    SdfScene room{{test::boxBetween({-0.2f, -0.2f, -0.2f}, {6.2f, 0, 5.2f}),
+                   test::boxBetween({-0.2f, 0, -0.2f}, {0, 3, 5.2f}), test::boxBetween({0, 0, -0.2f}, {6.2f, 3, 0}),
+                   test::boxBetween({0, 0, 5}, {6.2f, 3, 5.2f}), test::boxBetween({6, 0, 0}, {6.2f, 1, 5}),
+                   test::boxBetween({6, 2, 0}, {6.2f, 3, 5}), test::boxBetween({6, 1, 0}, {6.2f, 2, 1.5f}),
+                   test::boxBetween({6, 1, 3.5f}, {6.2f, 2, 5})}};
+    if (!window) room.primitives.push_back(test::boxBetween({6, 1, 1.5f}, {6.2f, 2, 3.5f}));
+    if (ceiling) room.primitives.push_back(test::boxBetween({-0.2f, 3, -0.2f}, {6.2f, 3.2f, 5.2f}));
+    return room;
+}
+
+// Of all rays few leave a room, but they are its light.
+TEST(MeasureSdf, tellsHowMuchOfItsSkyARoomLosesAndGains) {
+    const BoxScene world(test::roomScene(true));
+    const SdfAccuracy same = measure(world, roomInPrimitives(true, true)).value();
+    EXPECT_GT(same.dimRays, 0.3);
+    EXPECT_GT(same.dimSkyRays, 0);
+    EXPECT_LT(same.dimSkyRays, 0.1 * same.dimRays);
+    EXPECT_LT(same.dimBlockedSky, 0.02);
+    EXPECT_LT(same.dimLeaking, 0.02);
+    const SdfAccuracy closed = measure(world, roomInPrimitives(false, true)).value();
+    EXPECT_EQ(closed.dimSkyRays, same.dimSkyRays);
+    EXPECT_GT(closed.dimBlockedSky, 0.9);
+    EXPECT_LT(closed.dimLeaking, 0.02);
+    const SdfAccuracy open = measure(world, roomInPrimitives(true, false)).value();
+    EXPECT_LT(open.dimBlockedSky, 0.02);
+    EXPECT_GT(open.dimLeaking, 1);
+}
+
+TEST(MeasureSdf, knowsNoDimSkyWhereThereIsNone) {
+    const SdfAccuracy a = measure(BoxScene(test::roomScene(false)), roomInPrimitives(true, true)).value();
+    EXPECT_EQ(a.dimSkyRays, 0);
+    EXPECT_EQ(a.dimBlockedSky, 0);
+    EXPECT_EQ(a.dimLeaking, 0);
+}
+
 TEST(MeasureSdf, refusesANumberOfRaysOutOfRange) {
     const BoxScene world(cubeOnFloor());
     EXPECT_THAT(measure(world, {}, 10).error().message, testing::HasSubstr("rays is 10"));

@@ -32,7 +32,8 @@ const char* const kFooter =
 time that the same file is written (or in the file of --keep), and the others are fitted around them.
 
 Printed is how well they fit, by rays that start where cameras and probes can be: mean distances between the surfaces
-both ways, rays that leak out through the primitives, and rays into the open that they block.
+both ways, rays that leak out through the primitives, and rays into the open that they block. From rooms and other dim
+places few rays see the sky: how many of these are lost and gained tells whether windows are open and walls whole.
 
 Example: probegi fit builtin:house -o house.sdf.json --picture house.png
 Example: probegi fit sponza.glb -o sponza.sdf.json --max-primitives 128
@@ -49,7 +50,11 @@ nlohmann::ordered_json statsOf(const FitOptions& options, const SdfScene& sdf, c
             {"toScene", a.toScene},
             {"leaking", a.leaking},
             {"blockedSky", a.blockedSky},
-            {"startInside", a.startInside}};
+            {"startInside", a.startInside},
+            {"dimRays", a.dimRays},
+            {"dimSkyRays", a.dimSkyRays},
+            {"dimBlockedSky", a.dimBlockedSky},
+            {"dimLeaking", a.dimLeaking}};
 }
 
 void print(const SdfScene& sdf, const SdfAccuracy& a, std::optional<double> seconds) {
@@ -68,6 +73,9 @@ void print(const SdfScene& sdf, const SdfAccuracy& a, std::optional<double> seco
     else
         fmt::print("blocked sky     none is seen\n");
     fmt::print("start inside    {:.2g} % of all rays\n", 100 * a.startInside);
+    if (a.dimSkyRays > 0)
+        fmt::print("dim places      {:.2g} % of what they see of the sky is blocked, leaks add {:.2g} %\n",
+                   100 * a.dimBlockedSky, 100 * a.dimLeaking);
 }
 
 /// The primitives whose pinned ones are kept: --keep, else the file that is about to be replaced.

@@ -9,13 +9,16 @@
 #include "core/sentence.h"
 #include "kernels/sdf/ray_span.h"
 #include "kernels/sdf/union_hit.h"
+#include "sdf/fit/fit_frames.h"
+#include "sdf/fit/fit_light.h"
 #include "sdf/placed_primitives.h"
 
 namespace probegi {
 
 namespace {
 
-constexpr std::size_t kGrain = 4096;  ///< rays per task
+constexpr std::size_t kGrain = 4096;       ///< rays per task
+constexpr float kDim = 0.5f * kOpenLight;  ///< light below which a place is dim
 
 float distanceToUnion(std::span<const kernels::SdfSolid> solids, glm::vec3 point) noexcept {
     float nearest = kernels::kSdfFar;
@@ -26,14 +29,23 @@ float distanceToUnion(std::span<const kernels::SdfSolid> solids, glm::vec3 point
 /// Sums over rays.
 struct Sums {
     std::int64_t sky = 0, blocked = 0, surfaces = 0, leaking = 0, inside = 0, primitives = 0;
+    std::int64_t dim = 0, dimSky = 0, dimBlocked = 0, dimLeaking = 0;
     double toPrimitives = 0, toScene = 0;
 
     void add(const Sums& other) noexcept {
         sky += other.sky, blocked += other.blocked, surfaces += other.surfaces, leaking += other.leaking;
         inside += other.inside, primitives += other.primitives;
+        dim += other.dim, dimSky += other.dimSky, dimBlocked += other.dimBlocked, dimLeaking += other.dimLeaking;
         toPrimitives += other.toPrimitives, toScene += other.toScene;
     }
 };
+
+void addDim(bool sky, float distance, Sums& sums) noexcept {
+    ++sums.dim;
+    sums.dimSky += sky;
+    sums.dimBlocked += sky && distance < kFitSky;
+    sums.dimLeaking += !sky && distance >= kFitSky;
+}
 
 /// A point where a ray meets a primitive, and how far the scene may be from it at most.
 struct Met {
@@ -60,13 +72,16 @@ Result<void> addToScene(const Tracer& tracer, std::span<const Met> points, Sums&
     return {};
 }
 
-Result<Sums> sumsOf(const Tracer& tracer, std::span<const FitRay> rays, std::span<const kernels::SdfSolid> solids) {
+Result<Sums> sumsOf(const Tracer& tracer, std::span<const FitRay> rays, std::span<const float> light,
+                    std::span<const kernels::SdfSolid> solids) {
     Sums sums;
     std::vector<Met> met;
-    for (const FitRay& ray : rays) {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const FitRay& ray = rays[i];
         int number = -1;
         const float distance = entersUnion(solids, ray, number);
         const bool sky = ray.distance >= kFitSky;
+        if (light[i] < kDim) addDim(sky, distance, sums);
         (sky ? sums.sky : sums.surfaces) += 1;
         sums.inside += distance <= 0;
         if (!sky) sums.toPrimitives += double(distanceToUnion(solids, ray.origin + ray.direction * ray.distance));
@@ -101,10 +116,10 @@ float entersUnion(std::span<const kernels::SdfSolid> solids, const FitRay& ray, 
 }
 
 Result<SdfAccuracy> accuracyBy(const Context& context, const Tracer& tracer, std::span<const FitRay> rays,
-                               std::span<const kernels::SdfSolid> solids) {
+                               std::span<const float> light, std::span<const kernels::SdfSolid> solids) {
     std::vector<Sums> parts((rays.size() + kGrain - 1) / kGrain);
     auto done = tryParallelFor(context, rays.size(), kGrain, [&](std::size_t begin, std::size_t end) -> Result<void> {
-        auto part = sumsOf(tracer, rays.subspan(begin, end - begin), solids);
+        auto part = sumsOf(tracer, rays.subspan(begin, end - begin), light.subspan(begin, end - begin), solids);
         if (!part) return part.error();
         parts[begin / kGrain] = *part;
         return {};
@@ -122,6 +137,10 @@ Result<SdfAccuracy> accuracyBy(const Context& context, const Tracer& tracer, std
     out.leaking = share(sums.leaking, count);
     out.blockedSky = share(sums.blocked, sums.sky);
     out.startInside = share(sums.inside, count);
+    out.dimRays = share(sums.dim, count);
+    out.dimSkyRays = share(sums.dimSky, count);
+    out.dimBlockedSky = share(sums.dimBlocked, sums.dimSky);
+    out.dimLeaking = share(sums.dimLeaking, sums.dimSky);
     return out;
 }
 
@@ -133,7 +152,9 @@ Result<SdfAccuracy> measureSdf(const Context& context, const Scene& scene, const
     if (!placed) return placed.error();
     const auto walked = walkThrough(context, tracer, pose.cameras, std::size_t(rays), seed);
     if (!walked) return walked.error();
-    return accuracyBy(context, tracer, walked->rays, placed->solids());
+    if (walked->rays.empty()) return SdfAccuracy();
+    const std::vector<float> light = lightOfStarts(walked->rays, findFrames(walked->surfaces, 1)[0]);
+    return accuracyBy(context, tracer, walked->rays, light, placed->solids());
 }
 
 }  // namespace probegi

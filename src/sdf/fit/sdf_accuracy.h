@@ -12,8 +12,8 @@ namespace probegi {
 /// solid that it meets, -1: none.
 float entersUnion(std::span<const kernels::SdfSolid> solids, const FitRay& ray, int& number) noexcept;
 
-/// The accuracy by given rays. Errors: the tracer's.
+/// The accuracy by given rays, and the light where each starts, as of lightOfStarts(). Errors: the tracer's.
 Result<SdfAccuracy> accuracyBy(const Context& context, const Tracer& tracer, std::span<const FitRay> rays,
-                               std::span<const kernels::SdfSolid> solids);
+                               std::span<const float> light, std::span<const kernels::SdfSolid> solids);
 
 }  // namespace probegi
