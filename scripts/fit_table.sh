@@ -18,8 +18,8 @@ trap 'rm -rf "$work"' EXIT
 
 echo "$(grep -m1 'model name' /proc/cpuinfo | cut -d: -f2- | xargs), $(nproc) threads"
 echo
-echo "| scene | primitives | to the primitives, cm | to the scene, cm | leaking | blocked sky | start inside | seconds |"
-echo "|---|---|---|---|---|---|---|---|"
+echo "| scene | primitives | to the primitives, cm | to the scene, cm | leaking | blocked sky | dim sky blocked | dim leaks | start inside | seconds |"
+echo "|---|---|---|---|---|---|---|---|---|---|"
 for scene in "${scenes[@]}"; do
     "$tool" fit "$scene" -o "$work/fit.sdf.json" --stats "$work/stats.json" >"$work/log" 2>&1 || {
         cat "$work/log" >&2
@@ -29,10 +29,12 @@ for scene in "${scenes[@]}"; do
     awk -F'": ' -v name="${name#builtin:}" '
         { gsub(/[ ",]/, "", $1); value[$1] = $2 + 0 }
         function percent(share) { return sprintf("%.2g %%", 100 * share) }
+        function ofSky(share, sky) { return sky > 0 ? percent(share) : "no sky" }
         END {
-            printf "| %s | %d | %.3g | %.3g | %s | %s | %s | %.1f |\n", name, value["primitives"],
+            printf "| %s | %d | %.3g | %.3g | %s | %s | %s | %s | %s | %.1f |\n", name, value["primitives"],
                 100 * value["toPrimitives"], 100 * value["toScene"], percent(value["leaking"]),
-                (value["skyRays"] > 0 ? percent(value["blockedSky"]) : "no sky"), percent(value["startInside"]),
+                ofSky(value["blockedSky"], value["skyRays"]), ofSky(value["dimBlockedSky"], value["dimSkyRays"]),
+                ofSky(value["dimLeaking"], value["dimSkyRays"]), percent(value["startInside"]),
                 value["seconds"]
         }' "$work/stats.json"
     rm -f "$work/fit.sdf.json"
