@@ -1,8 +1,5 @@
 #include "geometry/emitters.h"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <map>
 #include <utility>

@@ -114,7 +114,7 @@ TEST_P(BackendEmitters, oneUpdateHasTheClosedFormOfASmallLamp) {
     RecordProperty("rms", std::to_string(looks.rms));
 }
 
-// The same of a primitive, one way up and turned over: rays carry what lamps of other shapes send.
+// The same of a primitive, one way up and turned over.
 TEST_P(BackendEmitters, oneUpdateHasTheClosedFormOfAGlowingBox) {
     SdfPrimitive lamp;
     lamp.centre = {0, 2.0004f, 0};
