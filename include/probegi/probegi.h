@@ -9,6 +9,7 @@
 #include "probegi/field_file.h"
 #include "probegi/image.h"
 #include "probegi/io.h"
+#include "probegi/mask_updater.h"
 #include "probegi/masks.h"
 #include "probegi/measure.h"
 #include "probegi/reference.h"

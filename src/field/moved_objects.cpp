@@ -18,17 +18,6 @@ Bounds joined(const Bounds& a, const Bounds& b) {
     return {glm::min(a.lower, b.lower), glm::max(a.upper, b.upper)};
 }
 
-// Zero-sized without triangles.
-Bounds meshBounds(const Mesh& mesh) {
-    std::optional<Bounds> box;
-    for (const Primitive& primitive : mesh.primitives)
-        for (const std::uint32_t index : primitive.indices) {
-            const glm::vec3 p = primitive.positions[index];
-            box = box ? joined(*box, {p, p}) : Bounds{p, p};
-        }
-    return box.value_or(Bounds{});
-}
-
 // The corners of the mesh's box, in the world.
 Corners cornersOf(const Scene& scene, const Instance& instance) {
     const Bounds box = meshBounds(scene.meshes[std::size_t(instance.mesh)]);
@@ -72,6 +61,16 @@ MovedObject compared(const Scene& scene, const Instance* before, const Instance*
 }
 
 }  // namespace
+
+Bounds meshBounds(const Mesh& mesh) {
+    std::optional<Bounds> box;
+    for (const Primitive& primitive : mesh.primitives)
+        for (const std::uint32_t index : primitive.indices) {
+            const glm::vec3 p = primitive.positions[index];
+            box = box ? joined(*box, {p, p}) : Bounds{p, p};
+        }
+    return box.value_or(Bounds{});
+}
 
 std::vector<MovedObject> movedObjects(const Scene& scene, const ScenePose& before, const ScenePose& after,
                                       float least) {

@@ -14,6 +14,9 @@ struct MovedObject {
     Bounds box;        ///< around where it was and where it is, metres
 };
 
+/// Of all its triangles, in its own frame. Zero-sized without any.
+Bounds meshBounds(const Mesh& mesh);
+
 /// Those that moved by at least `least` of their size, in the order of their nodes.
 std::vector<MovedObject> movedObjects(const Scene& scene, const ScenePose& before, const ScenePose& after, float least);
 

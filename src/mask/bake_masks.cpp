@@ -1,3 +1,5 @@
+#include "mask/mask_bake.h"
+
 #include <chrono>
 #include <cmath>
 #include <new>
@@ -5,7 +7,6 @@
 #include "core/sentence.h"
 #include "field/layout.h"
 #include "field/masks_impl.h"
-#include "mask/mask_cubes.h"
 
 namespace probegi {
 
@@ -47,10 +48,6 @@ Result<void> checkDesc(const FieldDesc& field, const MaskDesc& d) {
     return checkPlaces(field, d);
 }
 
-Error noMemory() {
-    return {ErrorCode::outOfMemory, "no memory to bake masks; use a smaller factor or fewer probes"};
-}
-
 /// Seconds since the last call.
 class Stopwatch {
 public:
@@ -79,73 +76,88 @@ Result<Clusters> findClusters(const Context& context, const ProbeGraph& graph, c
 }
 
 void describe(const MaskTexels& texels, const MaskCells& cells, std::size_t cellTexels, MaskReport& report) {
+    const MaskSums& sums = texels.sums;
     report.cells = cells.count;
     report.blocked = cells.blocked.size();
-    report.residual = texels.leaking > 0 ? texels.residual / texels.leaking : 0;
+    report.residual = sums.leaking > 0 ? sums.residual / sums.leaking : 0;
     const double looked = double(texels.texels.size());
-    report.meanClusters = looked > 0 ? double(texels.seenClusters) / looked : 0;
-    report.blindTexels = double(texels.blind) / double(cells.count * cellTexels);
+    report.meanClusters = looked > 0 ? double(sums.seenClusters) / looked : 0;
+    report.blindTexels = double(sums.blind) / double(cells.count * cellTexels);
 }
 
-/// The layout of kernels/guards/masks.h.
-std::vector<std::uint32_t> assemble(const MaskCells& cells, const ProbeSight& sight, const Clusters& clusters,
-                                    const MaskCubes& cubes) {
+}  // namespace
+
+MaskBake::MaskBake(const FieldDesc& field, const MaskDesc& d)
+    : volumes(field.volumes), desc(d), cubes(d.factor, d.clusters <= 4) {
+    desc.positions = {}, desc.occluders = {};
+}
+
+std::shared_ptr<const Masks> MaskBake::publish() {
     const std::size_t slots = clusters.size();
-    const auto firstWord = [&](std::uint32_t cube) { return std::uint32_t(2 * slots + cube * cubes.cubeWords); };
-    std::vector<std::uint32_t> words(2 * slots);
+    const auto firstWord = [&](std::uint32_t cube) { return std::uint32_t(2 * slots + cube * cubes.cubeWords()); };
+    auto impl = std::make_unique<Masks::Impl>();
+    std::vector<std::uint32_t>& words = impl->words;
+    words.resize(2 * slots);
     for (std::size_t slot = 0; slot < slots; ++slot) {
-        words[2 * slot] = firstWord(cubes.of.back());
+        words[2 * slot] = firstWord(openCube);
         words[2 * slot + 1] = std::uint32_t(clusters[slot]) | std::uint32_t(sight.links[slot]) << 8;
     }
     for (std::size_t c = 0; c < cells.blocked.size(); ++c)
-        words[2 * std::size_t(cells.blocked[c].slot[0])] = firstWord(cubes.of[c]);
-    words.insert(words.end(), cubes.words.begin(), cubes.words.end());
-    return words;
-}
-
-Result<std::shared_ptr<const Masks>> bake(const Context& context, const Tracer& tracer, const FieldDesc& field,
-                                          const MaskDesc& desc) {
-    const std::size_t cellTexels = std::size_t(desc.factor * desc.factor * desc.factor);
-    MaskReport report;
-    Stopwatch watch;
-    const MaskCells cells = findMaskCells(field, desc, tracer.bounds());
-    if (double(cells.blocked.size()) * double(cellTexels) > kMostTexels) return noMemory();
-    const auto sight = traceProbeSight(context, tracer, field, cells, desc.factor);
-    if (!sight) return sight.error();
-    const ProbeGraph graph(context, field, cells, *sight, desc.factor);
-    report.visibilitySeconds = watch.lap();
-    const auto clusters = findClusters(context, graph, desc, report);
-    if (!clusters) return clusters.error();
-    report.clusterSeconds = watch.lap();
-    const auto texels = solveMasks(context, tracer, cells, *sight, *clusters, desc.factor, desc.strict);
-    if (!texels) return texels.error();
-    report.maskSeconds = watch.lap();
-    const MaskCubes cubes = mergeCubes(texels->texels, desc.factor, desc.clusters <= 4);
-    if (2 * clusters->size() + cubes.words.size() > kMostWords) return noMemory();
-
-    auto impl = std::make_unique<Masks::Impl>();
-    impl->words = assemble(cells, *sight, *clusters, cubes);
-    report.compressSeconds = watch.lap();
-    describe(*texels, cells, cellTexels, report);
-    report.rays = sight->rays + texels->rays;
+        words[2 * std::size_t(cells.blocked[c].slot[0])] = firstWord(cubeOf[c]);
+    words.insert(words.end(), cubes.words().begin(), cubes.words().end());
     report.cubes = cubes.count();
-    report.denseBytes = cells.count * cellTexels * std::size_t(desc.clusters);
-    report.bytes = impl->words.size() * sizeof(std::uint32_t);
-    impl->volumes = field.volumes;
+    report.bytes = words.size() * sizeof(std::uint32_t);
+    impl->volumes = volumes;
     impl->clusters = desc.clusters;
     impl->factor = desc.factor;
     impl->report = report;
     return std::make_shared<const Masks>(std::move(impl));
 }
 
-}  // namespace
+Result<MaskBake> bakeMaskParts(const Context& context, const Tracer& tracer, const FieldDesc& field,
+                               const MaskDesc& desc) {
+    if (auto ok = checkDesc(field, desc); !ok) return ok.error();
+    const std::size_t cellTexels = std::size_t(desc.factor * desc.factor * desc.factor);
+    MaskBake bake(field, desc);
+    MaskReport& report = bake.report;
+    Stopwatch watch;
+    bake.cells = findMaskCells(field, desc, tracer.bounds());
+    if (double(bake.cells.blocked.size()) * double(cellTexels) > kMostTexels) return noMemoryForMasks();
+    auto sight = traceProbeSight(context, tracer, field, bake.cells, desc.factor);
+    if (!sight) return sight.error();
+    bake.sight = std::move(*sight);
+    bake.graph.emplace(context, field, bake.cells, bake.sight, desc.factor);
+    report.visibilitySeconds = watch.lap();
+    auto clusters = findClusters(context, *bake.graph, desc, report);
+    if (!clusters) return clusters.error();
+    bake.clusters = std::move(*clusters);
+    report.clusterSeconds = watch.lap();
+    const auto texels =
+        solveMasks(context, tracer, bake.cells, bake.sight, bake.clusters, {desc.factor, desc.strict});
+    if (!texels) return texels.error();
+    report.maskSeconds = watch.lap();
+    for (std::size_t c = 0; c < bake.cells.blocked.size(); ++c)
+        bake.cubeOf.push_back(bake.cubes.add(std::span(texels->texels).subspan(c * cellTexels, cellTexels)));
+    bake.openCube = bake.cubes.add(std::vector<std::uint32_t>(cellTexels, kOpenTexel));
+    if (2 * bake.clusters.size() + bake.cubes.words().size() > kMostWords) return noMemoryForMasks();
+    report.compressSeconds = watch.lap();
+    describe(*texels, bake.cells, cellTexels, report);
+    report.rays = bake.sight.rays + texels->sums.rays;
+    report.denseBytes = bake.cells.count * cellTexels * std::size_t(desc.clusters);
+    return bake;
+}
+
+Error noMemoryForMasks() {
+    return {ErrorCode::outOfMemory, "no memory to bake masks; use a smaller factor or fewer probes"};
+}
 
 Result<std::shared_ptr<const Masks>> bakeMasks(const Context& context, const Tracer& tracer, const FieldDesc& field,
                                                const MaskDesc& desc) try {
-    if (auto ok = checkDesc(field, desc); !ok) return ok.error();
-    return bake(context, tracer, field, desc);
+    auto bake = bakeMaskParts(context, tracer, field, desc);
+    if (!bake) return bake.error();
+    return bake->publish();
 } catch (const std::bad_alloc&) {
-    return noMemory();
+    return noMemoryForMasks();
 }
 
 }  // namespace probegi

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/progress.h"
 #include "kernels/random.h"
@@ -15,21 +16,26 @@ constexpr float kHopeless = 16.0f;
 /// The last temperature, in lambdas.
 constexpr float kColdest = 0.25f;
 
+float coldestOf(float sparsity) {
+    return std::max(kColdest * sparsity, 1e-5f);
+}
+
 /// What one colour costs a probe beside another of it: E, or what eq. 8 would take for two colours.
 float costOf(float difference, float sparsity) {
     return difference > 0.0f ? difference : -sparsity;
 }
 
-/// A colouring and, for each probe and colour, what that colour would cost it: kept up as probes change.
+/// A colouring and, for each of some probes and each colour, what that colour would cost it: kept up as these change.
 class Colouring {
 public:
-    Colouring(const ProbeGraph& graph, Clusters clusters, const ColouringDesc& desc)
+    Colouring(const ProbeGraph& graph, Clusters clusters, std::span<const std::size_t> slots, int colours,
+              float sparsity)
         : m_graph(graph),
-          m_colours(std::size_t(desc.clusters)),
-          m_sparsity(desc.sparsity),
+          m_colours(std::size_t(colours)),
+          m_sparsity(sparsity),
           m_clusters(std::move(clusters)),
           m_cost(graph.probes() * m_colours) {
-        for (std::size_t slot = 0; slot < graph.probes(); ++slot)
+        for (const std::size_t slot : slots)
             graph.forNeighbours(slot, [&](std::size_t other, float difference) {
                 m_cost[slot * m_colours + m_clusters[other]] += costOf(difference, m_sparsity);
             });
@@ -60,9 +66,9 @@ private:
 };
 
 /// Every probe once: takes another colour, at random, by the rule of Metropolis.
-void sweep(Colouring& colouring, std::size_t probes, float temperature, kernels::uint& random) {
+void sweep(Colouring& colouring, std::span<const std::size_t> slots, float temperature, kernels::uint& random) {
     const std::size_t others = colouring.colours() - 1;
-    for (std::size_t slot = 0; slot < probes; ++slot) {
+    for (const std::size_t slot : slots) {
         const std::size_t step = 1 + std::min(others - 1, std::size_t(kernels::nextRandom(random) * float(others)));
         const std::size_t colour = (colouring.colourOf(slot) + step) % colouring.colours();
         const float change = colouring.change(slot, colour);
@@ -73,12 +79,12 @@ void sweep(Colouring& colouring, std::size_t probes, float temperature, kernels:
 }
 
 /// Until no probe alone can do better. Rounding of the sums could go in circles: a gain must be worth it.
-void goDownhill(Colouring& colouring, std::size_t probes, float least) {
+void goDownhill(Colouring& colouring, std::span<const std::size_t> slots, float least) {
     constexpr int kMostRounds = 1000;
     bool changed = true;
     for (int round = 0; changed && round < kMostRounds; ++round) {
         changed = false;
-        for (std::size_t slot = 0; slot < probes; ++slot) {
+        for (const std::size_t slot : slots) {
             std::size_t best = colouring.colourOf(slot);
             for (std::size_t colour = 0; colour < colouring.colours(); ++colour)
                 if (colouring.change(slot, colour) < colouring.change(slot, best) - least) best = colour;
@@ -153,17 +159,27 @@ Result<Clusters> annealColours(const Context& context, const ProbeGraph& graph, 
                                const ColouringDesc& desc) {
     if (desc.clusters < 2) return start;
     Progress progress(context, "colouring probes", desc.sweeps);
-    Colouring colouring(graph, start, desc);
-    const float coldest = std::max(kColdest * desc.sparsity, 1e-5f), hottest = std::max(graph.largest(), coldest);
+    std::vector<std::size_t> all(graph.probes());
+    std::iota(all.begin(), all.end(), std::size_t(0));
+    Colouring colouring(graph, start, all, desc.clusters, desc.sparsity);
+    const float coldest = coldestOf(desc.sparsity), hottest = std::max(graph.largest(), coldest);
     kernels::uint random = kernels::hashCombine(kernels::uint(desc.seed), kernels::uint(desc.seed >> 32));
     for (int i = 0; i < desc.sweeps; ++i) {
         const float done = float(i) / float(std::max(1, desc.sweeps - 1));
-        sweep(colouring, graph.probes(), hottest * std::pow(coldest / hottest, done), random);
+        sweep(colouring, all, hottest * std::pow(coldest / hottest, done), random);
         if (!progress.advance()) return fail(ErrorCode::cancelled, "cancelled while baking masks");
     }
-    goDownhill(colouring, graph.probes(), 0.5f * coldest);
+    goDownhill(colouring, all, 0.5f * coldest);
     const Clusters& found = colouring.clusters();
     return colouringLoss(graph, found, desc.sparsity) < colouringLoss(graph, start, desc.sparsity) ? found : start;
+}
+
+void recolour(const ProbeGraph& graph, std::span<const std::size_t> slots, int colours, float sparsity,
+              Clusters& clusters) {
+    if (colours < 2 || slots.empty()) return;
+    Colouring colouring(graph, std::move(clusters), slots, colours, sparsity);
+    goDownhill(colouring, slots, 0.5f * coldestOf(sparsity));
+    clusters = colouring.clusters();
 }
 
 }  // namespace probegi

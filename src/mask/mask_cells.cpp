@@ -15,15 +15,6 @@ namespace {
 /// Added around cells, in spacings: rays end a little beyond texels.
 constexpr float kMargin = 0.05f;
 
-/// How far probes stand off their places in a volume, per axis of its frame, metres.
-glm::vec3 farthestOffset(const VolumeDesc& volume, const kernels::Volume& v, std::span<const glm::vec3> positions) {
-    glm::vec3 farthest(0.0f);
-    for (std::size_t i = 0; i < positions.size(); ++i)
-        farthest =
-            glm::max(farthest, glm::abs(kernels::toVolumeDirection(v, positions[i] - probePosition(volume, int(i)))));
-    return farthest;
-}
-
 /// The cells of one axis that a range of the volume's frame touches; all in spacings from the lowest probe.
 std::pair<int, int> touched(float lower, float upper, int cells) {
     // Comparisons that a NaN fails leave all cells in.
@@ -32,22 +23,38 @@ std::pair<int, int> touched(float lower, float upper, int cells) {
     return {int(low), std::min(int(high), cells - 1)};
 }
 
-/// Marks the cells that the bounds touch.
-void mark(const kernels::Volume& v, glm::vec3 reach, const Bounds& bounds, std::vector<bool>& blocked) {
-    const kernels::Box box = kernels::boxInVolume(v, bounds.lower, bounds.upper);
-    const glm::vec3 lower = (box.lower - reach - v.origin) * v.inverseSpacing - kMargin;
-    const glm::vec3 upper = (box.upper + reach - v.origin) * v.inverseSpacing + kMargin;
-    const glm::ivec3 cells = v.counts - 1;
-    const auto [x0, x1] = touched(lower.x, upper.x, cells.x);
-    const auto [y0, y1] = touched(lower.y, upper.y, cells.y);
-    const auto [z0, z1] = touched(lower.z, upper.z, cells.z);
-    for (int z = z0; z <= z1; ++z)
-        for (int y = y0; y <= y1; ++y)
-            for (int x = x0; x <= x1; ++x) blocked[std::size_t(x + cells.x * (y + cells.y * z))] = true;
+void mark(glm::ivec3 cells, const CellRange& range, std::vector<bool>& blocked) {
+    for (int z = range.begin.z; z < range.end.z; ++z)
+        for (int y = range.begin.y; y < range.end.y; ++y)
+            for (int x = range.begin.x; x < range.end.x; ++x)
+                blocked[std::size_t(x + cells.x * (y + cells.y * z))] = true;
 }
 
-MaskCell makeCell(const VolumeDesc& volume, int firstSlot, glm::ivec3 base, int factor,
-                  std::span<const glm::vec3> probes) {
+}  // namespace
+
+glm::vec3 farthestOffset(const VolumeDesc& volume, const kernels::Volume& v, std::span<const glm::vec3> probes) {
+    glm::vec3 farthest(0.0f);
+    for (std::size_t i = 0; i < probes.size(); ++i)
+        farthest =
+            glm::max(farthest, glm::abs(kernels::toVolumeDirection(v, probes[i] - probePosition(volume, int(i)))));
+    return farthest;
+}
+
+CellRange cellsTouched(const kernels::Volume& v, glm::vec3 offset, const Bounds& bounds) {
+    const kernels::Box box = kernels::boxInVolume(v, bounds.lower, bounds.upper);
+    const glm::vec3 lower = (box.lower - offset - v.origin) * v.inverseSpacing - kMargin;
+    const glm::vec3 upper = (box.upper + offset - v.origin) * v.inverseSpacing + kMargin;
+    CellRange range;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto [first, last] = touched(lower[axis], upper[axis], v.counts[axis] - 1);
+        range.begin[axis] = first;
+        range.end[axis] = last + 1;
+    }
+    return range;
+}
+
+MaskCell makeMaskCell(const VolumeDesc& volume, int firstSlot, glm::ivec3 base, int factor,
+                      std::span<const glm::vec3> probes) {
     const auto number = [&](glm::ivec3 at) { return at.x + volume.counts.x * (at.y + volume.counts.y * at.z); };
     MaskCell cell;
     for (std::size_t i = 0; i < 8; ++i) {
@@ -66,8 +73,6 @@ MaskCell makeCell(const VolumeDesc& volume, int firstSlot, glm::ivec3 base, int 
     return cell;
 }
 
-}  // namespace
-
 MaskCells findMaskCells(const FieldDesc& field, const MaskDesc& desc, const Bounds& all) {
     MaskCells found;
     for (const VolumeDesc& volume : field.volumes)
@@ -81,14 +86,14 @@ MaskCells findMaskCells(const FieldDesc& field, const MaskDesc& desc, const Boun
         const std::size_t count = std::size_t(cells.x) * std::size_t(cells.y) * std::size_t(cells.z);
         const auto own =
             std::span(found.probes).subspan(std::size_t(v.firstSlot), std::size_t(kernels::volumeProbes(v)));
-        const glm::vec3 reach = farthestOffset(field.volumes[i], v, own);
+        const glm::vec3 offset = farthestOffset(field.volumes[i], v, own);
         std::vector<bool> blocked(count);
         for (const Bounds& bounds : desc.occluders.empty() ? std::span(&all, 1) : desc.occluders)
-            mark(v, reach, bounds, blocked);
+            mark(cells, cellsTouched(v, offset, bounds), blocked);
         for (std::size_t c = 0; c < count; ++c) {
             const glm::ivec3 base(int(c) % cells.x, int(c) / cells.x % cells.y, int(c) / (cells.x * cells.y));
             if (blocked[c])
-                found.blocked.push_back(makeCell(field.volumes[i], v.firstSlot, base, desc.factor, found.probes));
+                found.blocked.push_back(makeMaskCell(field.volumes[i], v.firstSlot, base, desc.factor, found.probes));
         }
         found.count += count;
     }

@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "kernels/volume/volume.h"
 #include "probegi/masks.h"
 
 namespace probegi {
@@ -33,6 +34,21 @@ struct MaskCells {
 /// The desc and positions must be valid. Bounds may be infinite. A cell without occluders is one that none of them
 /// comes near to, wherever in reach of it its probes stand.
 MaskCells findMaskCells(const FieldDesc& field, const MaskDesc& desc, const Bounds& all);
+
+/// How far probes stand off their places in a volume, per axis of its frame, metres. `probes`: those of the volume.
+glm::vec3 farthestOffset(const VolumeDesc& volume, const kernels::Volume& v, std::span<const glm::vec3> probes);
+
+/// A range of a volume's cells, `end` not in it; none where it is not above `begin`.
+struct CellRange {
+    glm::ivec3 begin{0}, end{0};
+};
+
+/// The cells that something within bounds (world, metres) may block, probes standing up to `offset` off their places.
+CellRange cellsTouched(const kernels::Volume& v, glm::vec3 offset, const Bounds& bounds);
+
+/// A cell of a volume whose slots begin at `firstSlot`. `probes`: of all volumes.
+MaskCell makeMaskCell(const VolumeDesc& volume, int firstSlot, glm::ivec3 base, int factor,
+                      std::span<const glm::vec3> probes);
 
 /// Trilinear weights of a cell's eight probes at its texels: [texel][probe]. `factor`: texels an axis.
 std::vector<std::array<float, 8>> texelWeights(int factor);

@@ -1,39 +1,62 @@
 #include "mask/mask_cubes.h"
 
+#include <algorithm>
 #include <string_view>
-#include <unordered_map>
 
 namespace probegi {
 
 namespace {
 
-/// Appends a cube's texels to the words.
-void append(std::span<const std::uint32_t> cube, bool packed, std::vector<std::uint32_t>& words) {
-    if (!packed) {
-        words.insert(words.end(), cube.begin(), cube.end());
-        return;
-    }
-    for (std::size_t t = 0; t < cube.size(); t += 2)
-        words.push_back((cube[t] & 0xffffu) | (t + 1 < cube.size() ? cube[t + 1] << 16 : 0u));
+std::size_t hashOf(std::span<const std::uint32_t> words) {
+    return std::hash<std::string_view>()({reinterpret_cast<const char*>(words.data()), words.size_bytes()});
 }
 
 }  // namespace
 
-MaskCubes mergeCubes(std::span<const std::uint32_t> texels, int factor, bool packed) {
-    const std::size_t perCube = std::size_t(factor) * std::size_t(factor) * std::size_t(factor);
-    MaskCubes cubes;
-    cubes.cubeWords = packed ? (perCube + 1) / 2 : perCube;
-    const std::vector<std::uint32_t> open(perCube, kOpenTexel);
-    std::unordered_map<std::string_view, std::uint32_t> known;
-    const auto add = [&](std::span<const std::uint32_t> cube) {
-        const std::string_view key(reinterpret_cast<const char*>(cube.data()), cube.size_bytes());
-        const auto [entry, isNew] = known.try_emplace(key, std::uint32_t(known.size()));
-        cubes.of.push_back(entry->second);
-        if (isNew) append(cube, packed, cubes.words);
-    };
-    for (std::size_t at = 0; at < texels.size(); at += perCube) add(texels.subspan(at, perCube));
-    add(open);
-    return cubes;
+MaskCubes::MaskCubes(int factor, bool packed) : m_packed(packed) {
+    const std::size_t texels = std::size_t(factor) * std::size_t(factor) * std::size_t(factor);
+    m_cubeWords = packed ? (texels + 1) / 2 : texels;
+}
+
+void MaskCubes::pack(std::span<const std::uint32_t> texels) {
+    if (!m_packed) return m_cube.assign(texels.begin(), texels.end());
+    m_cube.clear();
+    for (std::size_t t = 0; t < texels.size(); t += 2)
+        m_cube.push_back((texels[t] & 0xffffu) | (t + 1 < texels.size() ? texels[t + 1] << 16 : 0u));
+}
+
+std::uint32_t MaskCubes::place() {
+    if (m_free.empty()) {
+        m_words.resize(m_words.size() + m_cubeWords);
+        m_cells.push_back(0);
+        return std::uint32_t(m_cells.size() - 1);
+    }
+    const std::uint32_t cube = m_free.back();
+    m_free.pop_back();
+    return cube;
+}
+
+std::uint32_t MaskCubes::add(std::span<const std::uint32_t> texels) {
+    pack(texels);
+    const std::size_t hash = hashOf(m_cube);
+    const auto [begin, end] = m_byHash.equal_range(hash);
+    for (auto known = begin; known != end; ++known)
+        if (std::ranges::equal(wordsOf(known->second), m_cube)) {
+            ++m_cells[known->second];
+            return known->second;
+        }
+    const std::uint32_t cube = place();
+    std::ranges::copy(m_cube, wordsOf(cube).begin());
+    m_cells[cube] = 1;
+    m_byHash.emplace(hash, cube);
+    return cube;
+}
+
+void MaskCubes::release(std::uint32_t cube) {
+    if (--m_cells[cube] > 0) return;
+    const auto [begin, end] = m_byHash.equal_range(hashOf(wordsOf(cube)));
+    m_byHash.erase(std::find_if(begin, end, [&](const auto& known) { return known.second == cube; }));
+    m_free.push_back(cube);
 }
 
 }  // namespace probegi

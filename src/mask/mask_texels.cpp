@@ -139,58 +139,58 @@ Result<std::uint64_t> findWalls(const Tracer& tracer, const MaskCell& cell, std:
     return std::uint64_t(rays.size());
 }
 
-/// What is summed over cells, in their order.
-struct CellSums {
-    double residual = 0, leaking = 0;
-    std::uint32_t rays = 0, seenClusters = 0, blind = 0;
-};
-
 }  // namespace
 
+Result<MaskSums> solveCell(const Tracer& tracer, const MaskCell& cell, std::span<const std::uint8_t> seen,
+                           const Clusters& clusters, const MaskSolve& how,
+                           const std::vector<std::array<float, 8>>& weights, std::span<std::uint32_t> texels) {
+    const CellSolver solver(cell, clusters, how.strict);
+    std::vector<std::uint8_t> masks(weights.size());
+    MaskSums sums;
+    for (std::size_t t = 0; t < weights.size(); ++t) {
+        masks[t] = solver.solve(seen[t], weights[t]);
+        sums.residual += solver.residual(seen[t], masks[t], weights[t]);
+        sums.leaking += solver.residual(seen[t], 255, weights[t]);
+    }
+    const auto flooded = flood(tracer, cell, how.factor, masks);
+    if (!flooded) return flooded.error();
+    for (std::size_t t = 0; t < masks.size(); ++t) {
+        texels[t] = texelOf(masks[t]);
+        sums.seenClusters += std::uint64_t(std::popcount(masks[t] & solver.present()));
+        sums.blind += masks[t] == 0;
+    }
+    const auto walls = findWalls(tracer, cell, masks, how.factor, texels);
+    if (!walls) return walls.error();
+    sums.rays = *flooded + *walls;
+    return sums;
+}
+
 Result<MaskTexels> solveMasks(const Context& context, const Tracer& tracer, const MaskCells& cells,
-                              const ProbeSight& sight, const Clusters& clusters, int factor, bool strict) {
-    const std::vector<std::array<float, 8>> weights = texelWeights(factor);
+                              const ProbeSight& sight, const Clusters& clusters, const MaskSolve& how) {
+    const std::vector<std::array<float, 8>> weights = texelWeights(how.factor);
+    const std::size_t perCell = weights.size();
     MaskTexels result;
     result.texels.resize(sight.seen.size());
-    std::vector<CellSums> sums(cells.blocked.size());
+    std::vector<MaskSums> sums(cells.blocked.size());
     Progress progress(context, "solving masks", double(cells.blocked.size()));
-    const auto solveCell = [&](std::size_t c) -> Result<void> {
-        const CellSolver solver(cells.blocked[c], clusters, strict);
-        const auto seen = std::span(sight.seen).subspan(c * weights.size(), weights.size());
-        const auto texels = std::span(result.texels).subspan(c * weights.size(), weights.size());
-        std::vector<std::uint8_t> masks(weights.size());
-        CellSums& sum = sums[c];
-        for (std::size_t t = 0; t < weights.size(); ++t) {
-            masks[t] = solver.solve(seen[t], weights[t]);
-            sum.residual += solver.residual(seen[t], masks[t], weights[t]);
-            sum.leaking += solver.residual(seen[t], 255, weights[t]);
-        }
-        const auto flooded = flood(tracer, cells.blocked[c], factor, masks);
-        if (!flooded) return flooded.error();
-        for (std::size_t t = 0; t < masks.size(); ++t) {
-            texels[t] = texelOf(masks[t]);
-            sum.seenClusters += std::uint32_t(std::popcount(masks[t] & solver.present()));
-            sum.blind += masks[t] == 0;
-        }
-        const auto walls = findWalls(tracer, cells.blocked[c], masks, factor, texels);
-        if (!walls) return walls.error();
-        sum.rays = std::uint32_t(*flooded + *walls);
-        return {};
-    };
     auto solved = tryParallelFor(context, cells.blocked.size(), 4, [&](std::size_t begin, std::size_t end) {
-        Result<void> done;
-        for (std::size_t c = begin; done && c < end; ++c) done = solveCell(c);
-        if (done && !progress.advance(double(end - begin)))
+        for (std::size_t c = begin; c < end; ++c) {
+            const auto cell = solveCell(tracer, cells.blocked[c], std::span(sight.seen).subspan(c * perCell, perCell),
+                                        clusters, how, weights, std::span(result.texels).subspan(c * perCell, perCell));
+            if (!cell) return Result<void>(cell.error());
+            sums[c] = *cell;
+        }
+        if (!progress.advance(double(end - begin)))
             return Result<void>(fail(ErrorCode::cancelled, "cancelled while baking masks"));
-        return done;
+        return Result<void>();
     });
     if (!solved) return solved.error();
-    for (const CellSums& sum : sums) {
-        result.residual += sum.residual;
-        result.leaking += sum.leaking;
-        result.rays += sum.rays;
-        result.seenClusters += sum.seenClusters;
-        result.blind += sum.blind;
+    for (const MaskSums& cell : sums) {  // in the order of the cells
+        result.sums.residual += cell.residual;
+        result.sums.leaking += cell.leaking;
+        result.sums.rays += cell.rays;
+        result.sums.seenClusters += cell.seenClusters;
+        result.sums.blind += cell.blind;
     }
     return result;
 }

@@ -11,6 +11,9 @@ public:
     ProbeGraph(const Context& context, const FieldDesc& field, const MaskCells& cells, const ProbeSight& sight,
                int factor);
 
+    /// The same after some cells see otherwise, or are new at the end of `cells.blocked`.
+    void update(const MaskCells& cells, const ProbeSight& sight, std::span<const std::size_t> changed);
+
     std::size_t probes() const noexcept { return m_forward.size(); }
     float largest() const noexcept { return m_largest; }  ///< E
 
@@ -26,9 +29,23 @@ public:
     const std::vector<Lattice>& lattices() const noexcept { return m_lattices; }
     const Lattice& latticeOf(std::size_t slot) const noexcept;
 
+    /// The number of the blocked cell that has a slot's probe at one of its corners; -1: there is none.
+    int cellWith(const MaskCells& cells, std::size_t slot, std::size_t corner) const noexcept;
+
+    /// Whether it costs the same in another graph of the same lattices to give a probe its neighbours' colours.
+    bool sameAround(const ProbeGraph& other, std::size_t slot) const;
+
 private:
+    using Forward = std::array<float, 13>;
+    using PairSums = std::array<float, 28>;  // of eq. 6, by pair of a cell's probes
+
+    void sumPair(const MaskCells& cells, const MaskCell& cell, std::size_t pair);
+
     std::vector<Lattice> m_lattices;
-    std::vector<std::array<float, 13>> m_forward;  // E with the neighbours that come later: z first, then y, then x
+    std::vector<PairSums> m_smaller;  // min(phi_i, phi_j), by texel
+    std::vector<PairSums> m_sums;     // by cell
+    std::vector<int> m_cellAt;        // by lowest slot; -1: none
+    std::vector<Forward> m_forward;
     float m_largest = 0;
 };
 

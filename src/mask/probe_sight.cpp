@@ -18,14 +18,9 @@ struct CellRays {
     std::vector<std::uint8_t> blocked;
 };
 
-/// A texel on a probe sees it if it sees any other: in matter it sees none.
-std::uint8_t withOwnProbe(std::uint8_t seen, std::size_t own) {
-    const unsigned others = seen & ~(1u << own);
-    return std::uint8_t(others != 0 ? seen : 0);
-}
-
-Result<void> lookAround(const Tracer& tracer, const MaskCell& cell, int factor, CellRays& work, std::uint8_t* seen) {
-    const std::size_t texels = std::size_t(factor * factor * factor);
+Result<void> seeCell(const Tracer& tracer, const MaskCell& cell, int factor, CellRays& work,
+                     std::span<std::uint8_t> seen) {
+    const std::size_t texels = seen.size();
     work.rays.clear();
     for (const glm::vec3& probe : cell.probe)
         for (int z = 0; z < factor; ++z)
@@ -36,11 +31,8 @@ Result<void> lookAround(const Tracer& tracer, const MaskCell& cell, int factor, 
     if (auto traced = tracer.occluded(work.rays, work.blocked); !traced) return traced;
     for (std::size_t t = 0; t < texels; ++t) {
         unsigned bits = 0;
-        std::size_t own = 8;
-        for (std::size_t i = 0; i < 8; ++i) {
-            bits |= work.blocked[i * texels + t] ? 0u : 1u << i;
-            if (!(work.rays[i * texels + t].far > 2 * kReachBeyond * cell.texelSize)) own = i;
-        }
+        for (std::size_t i = 0; i < 8; ++i) bits |= work.blocked[i * texels + t] ? 0u : 1u << i;
+        const std::size_t own = ownProbe(cell, cell.texel(int(t) % factor, int(t) / factor % factor, int(t) / (factor * factor)));
         seen[t] = own < 8 ? withOwnProbe(std::uint8_t(bits), own) : std::uint8_t(bits);
     }
     return {};
@@ -94,6 +86,18 @@ Ray sightRay(glm::vec3 from, glm::vec3 to, float beyond) {
     return {.origin = from, .near = 0.0f, .direction = way / length, .far = length + beyond};
 }
 
+std::size_t ownProbe(const MaskCell& cell, glm::vec3 texel) {
+    std::size_t own = 8;
+    for (std::size_t i = 0; i < 8; ++i)
+        if (!(glm::distance(cell.probe[i], texel) > kReachBeyond * cell.texelSize)) own = i;
+    return own;
+}
+
+std::uint8_t withOwnProbe(std::uint8_t seen, std::size_t own) {
+    const unsigned others = seen & ~(1u << own);
+    return std::uint8_t(others != 0 ? seen : 0);
+}
+
 Result<ProbeSight> traceProbeSight(const Context& context, const Tracer& tracer, const FieldDesc& field,
                                    const MaskCells& cells, int factor) {
     ProbeSight sight;
@@ -106,7 +110,7 @@ Result<ProbeSight> traceProbeSight(const Context& context, const Tracer& tracer,
         CellRays work;
         Result<void> done;
         for (std::size_t c = begin; done && c < end; ++c)
-            done = lookAround(tracer, cells.blocked[c], factor, work, sight.seen.data() + c * texels);
+            done = seeCell(tracer, cells.blocked[c], factor, work, std::span(sight.seen).subspan(c * texels, texels));
         if (done && !progress.advance(double(end - begin)))
             return Result<void>(fail(ErrorCode::cancelled, "cancelled while baking masks"));
         return done;

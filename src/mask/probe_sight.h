@@ -16,6 +16,11 @@ struct ProbeSight {
 Result<ProbeSight> traceProbeSight(const Context& context, const Tracer& tracer, const FieldDesc& field,
                                    const MaskCells& cells, int factor);
 
+/// The probe of the cell that a texel is as good as on; 8: none.
+std::size_t ownProbe(const MaskCell& cell, glm::vec3 texel);
+/// A texel on a probe sees it if it sees any other: in matter it sees none.
+std::uint8_t withOwnProbe(std::uint8_t seen, std::size_t own);
+
 /// Share of a texel's smallest side by which rays reach beyond their ends: what lies on a wall is on no side of it.
 inline constexpr float kReachBeyond = 0.02f;
 

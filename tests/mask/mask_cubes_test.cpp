@@ -8,9 +8,13 @@
 namespace probegi::test {
 namespace {
 
-std::uint32_t texelIn(const MaskCubes& cubes, bool packed, std::size_t cell, std::size_t texel) {
-    const std::size_t first = cubes.of[cell] * cubes.cubeWords;
-    return packed ? cubes.words[first + texel / 2] >> (16 * (texel % 2)) & 0xffffu : cubes.words[first + texel];
+std::uint32_t texelIn(const MaskCubes& cubes, bool packed, std::uint32_t cube, std::size_t texel) {
+    const std::size_t first = cube * cubes.cubeWords();
+    return packed ? cubes.words()[first + texel / 2] >> (16 * (texel % 2)) & 0xffffu : cubes.words()[first + texel];
+}
+
+std::vector<std::uint32_t> cubeOf(std::uint32_t texel) {
+    return std::vector<std::uint32_t>(27, texel);
 }
 
 TEST(MaskCubes, loseNothing) {
@@ -20,32 +24,61 @@ TEST(MaskCubes, loseNothing) {
             std::mt19937 random(7);
             std::vector<std::uint32_t> all(20 * texels);
             for (std::uint32_t& texel : all) texel = std::uint32_t(random()) & (packed ? 0xffffu : 0xfffffu);
-            const MaskCubes cubes = mergeCubes(all, factor, packed);
-            EXPECT_EQ(cubes.count(), 21u);
-            EXPECT_EQ(cubes.cubeWords, packed ? (texels + 1) / 2 : texels);
+            MaskCubes cubes(factor, packed);
+            std::vector<std::uint32_t> of;
+            for (std::size_t c = 0; c < 20; ++c) of.push_back(cubes.add(std::span(all).subspan(c * texels, texels)));
+            EXPECT_EQ(cubes.count(), 20u);
+            EXPECT_EQ(cubes.cubeWords(), packed ? (texels + 1) / 2 : texels);
             for (std::size_t i = 0; i < all.size(); ++i)
-                ASSERT_EQ(texelIn(cubes, packed, i / texels, i % texels), all[i]);
+                ASSERT_EQ(texelIn(cubes, packed, of[i / texels], i % texels), all[i]);
         }
 }
 
 TEST(MaskCubes, mergeEqualOnes) {
-    std::vector<std::uint32_t> texels;
-    for (int cell = 0; cell < 30; ++cell)
-        texels.insert(texels.end(), 27, cell % 3 == 0 ? kOpenTexel : std::uint32_t(cell % 3));
-    texels.back() ^= 1;  // the last texel of cell 29: 2 -> 3
-    const MaskCubes cubes = mergeCubes(texels, 3, false);
+    MaskCubes cubes(3, false);
+    std::vector<std::uint32_t> of;
+    for (std::uint32_t cell = 0; cell < 30; ++cell) of.push_back(cubes.add(cubeOf(cell % 3)));
+    std::vector<std::uint32_t> other = cubeOf(2);
+    other.back() = 3;
+    const std::uint32_t last = cubes.add(other);
     EXPECT_EQ(cubes.count(), 4u);
-    EXPECT_EQ(cubes.of[0], cubes.of.back()) << "the cube that sees all is one of them";
-    EXPECT_EQ(cubes.of[1], cubes.of[4]);
-    EXPECT_NE(cubes.of[2], cubes.of[29]);
-    EXPECT_EQ(texelIn(cubes, false, 29, 26), 3u);
+    EXPECT_EQ(of[1], of[4]);
+    EXPECT_NE(of[2], last);
+    EXPECT_EQ(texelIn(cubes, false, last, 26), 3u);
 }
 
-TEST(MaskCubes, ofNothingAreOne) {
-    const MaskCubes cubes = mergeCubes({}, 8, true);
+TEST(MaskCubes, thatNoCellHasGiveTheirPlace) {
+    MaskCubes cubes(3, true);
+    const std::uint32_t one = cubes.add(cubeOf(1)), two = cubes.add(cubeOf(2));
+    EXPECT_EQ(cubes.add(cubeOf(1)), one);
+    cubes.release(one);
+    EXPECT_EQ(cubes.count(), 2u) << "another cell still has it";
+    cubes.release(one);
     EXPECT_EQ(cubes.count(), 1u);
-    EXPECT_EQ(cubes.of.size(), 1u);
-    EXPECT_EQ(cubes.words[77], 0x000f000fu);
+    EXPECT_EQ(cubes.add(cubeOf(3)), one);
+    EXPECT_EQ(cubes.words().size(), 2 * cubes.cubeWords());
+    EXPECT_EQ(texelIn(cubes, true, one, 13), 3u);
+    EXPECT_EQ(texelIn(cubes, true, two, 13), 2u);
+    EXPECT_NE(cubes.add(cubeOf(1)), one) << "it was forgotten with its last cell";
+}
+
+// Random cells come and go: each has what it was last given, and no two cubes are the same.
+TEST(MaskCubes, staySoundAsCellsChange) {
+    MaskCubes cubes(3, false);
+    std::mt19937 random(3);
+    std::vector<std::uint32_t> texel(40), of;
+    for (std::uint32_t& t : texel) of.push_back(cubes.add(cubeOf(t = std::uint32_t(random() % 7))));
+    for (int i = 0; i < 2000; ++i) {
+        const std::size_t cell = random() % 40;
+        cubes.release(of[cell]);
+        of[cell] = cubes.add(cubeOf(texel[cell] = std::uint32_t(random() % 7)));
+        std::vector<bool> there(7);
+        for (std::size_t c = 0; c < 40; ++c) {
+            ASSERT_EQ(texelIn(cubes, false, of[c], 26), texel[c]);
+            there[texel[c]] = true;
+        }
+        ASSERT_EQ(cubes.count(), std::size_t(std::count(there.begin(), there.end(), true)));
+    }
 }
 
 }  // namespace
