@@ -8,6 +8,7 @@
 #include "console/parse.h"
 #include "console/terminal.h"
 #include "contact.h"
+#include "doors.h"
 #include "events.h"
 #include "flight.h"
 #include "glossy.h"
@@ -267,6 +268,11 @@ Result<std::string> contact(const Context& context, const Options& options) {
     return contactTable(rows);
 }
 
+Result<std::string> doors(const Context& context, const Options&) {
+    const auto rows = measureDoors(context);
+    return rows ? Result<std::string>(doorTable(*rows)) : rows.error();
+}
+
 Result<void> measure(const Options& options) {
     const auto context = tool::makeContext(options.threads);
     if (!context) return context.error();
@@ -305,6 +311,7 @@ Result<void> measure(const Options& options) {
                                       {"flight", flights},
                                       {"glossy", glossy},
                                       {"contact", contact},
+                                      {"doors", doors},
                                       {"outside", outside}}) {
         if (!wanted(name)) continue;
         const auto made = table(*context, options);
@@ -330,10 +337,10 @@ int run(int argc, char** argv) {
     app.add_option(
            "--only", options.only,
            "print the tables of one scene, the leak, its sweep, the surfaces, placement, motion, budgets, events, "
-           "a flight, what is outside of volumes, glossy or contact light, and write nothing")
+           "a flight, what is outside of volumes, glossy or contact light, or masks at a door, and write nothing")
         ->type_name(
             "cornell|two-rooms|dark-room|sponza|leak|sweep|surfaces|placement|motion|budget|events|flight|outside|"
-            "glossy|contact");
+            "glossy|contact|doors");
     app.add_option("--scene", options.scene, "of placement, budget, glossy and contact: this scene only");
     app.add_flag("--leaky", options.leaky, "placement: without a visibility test");
     app.add_option("--scenes", options.scenesFolder, "folder of the real scenes (default: PROBEGI_SCENES)")

@@ -25,7 +25,7 @@ void addMaskOptions(CLI::App& command, MaskOptions& options, MaskOptionsOf offer
                     fmt::format("which probes a point may use, with --method ddgi: by the distances that they store "
                                 "(moments), by visibility that is baked first{} (default {})",
                                 offered.sdfShadow
-                                    ? ", with --animate again for each picture in which things have moved (masks), or "
+                                    ? ", and with --animate follows what moves (masks), or "
                                       "by the shadows of the primitives of --sdf between points and probes (sdf-shadow)"
                                     : " (masks)",
                                 options.bakes() ? "masks" : "moments"))
@@ -52,11 +52,20 @@ void addMaskOptions(CLI::App& command, MaskOptions& options, MaskOptionsOf offer
                   "a point uses a cluster only where it sees all its probes: nothing leaks, more is unlit by probes "
                   "that it could see")
         ->group(kGroup);
+    if (!offered.moves) return;
+    command
+        .add_option("--mask-budget", options.budget,
+                    "with --animate: how long masks of what moves may take in each picture, in milliseconds, as in an "
+                    "engine; what is left waits for the next one, which still shows the last whole masks (default: as "
+                    "long as they take)")
+        ->type_name("MS")
+        ->check(inRange(0.1, 10000.0))
+        ->group(kGroup);
 }
 
 void checkMaskOptions(const MaskOptions& options, const VolumeOptions& volumes) {
-    if (!options.bakes() && (options.clusters || options.factor || options.strict))
-        throw CLI::ValidationError("--clusters, --mask-factor, --mask-strict", "they act on --leak-guard masks only");
+    if (!options.bakes() && (options.clusters || options.factor || options.strict || options.budget > 0))
+        throw CLI::ValidationError("--clusters, --mask-factor, --mask-strict, --mask-budget", "they act on --leak-guard masks only");
     if (options.bakes() && volumes.cascades > 0)
         throw CLI::ValidationError("--leak-guard",
                                    "masks are baked for probes that stand still, without --cascades; with them give "
@@ -72,25 +81,35 @@ MaskDesc maskDesc(const MaskOptions& options, std::uint64_t seed) {
     return desc;
 }
 
-Result<void> bakeMasksFor(Field& field, const Context& context, const Tracer& tracer, const LoadedSetup& setup,
-                          const MaskOptions& options) {
-    MaskDesc desc = maskDesc(options, field.desc().seed);
-    const std::vector<Bounds> occluders = triangleBounds(*setup.scene, setup.pose);
-    desc.occluders = occluders;
-    std::vector<glm::vec3> positions;
-    if (field.desc().relocation && field.control().frame() == 0) {
+Result<std::unique_ptr<MaskPlan>> planMasks(Field& field, const Tracer& tracer, const LoadedSetup& setup,
+                                            const MaskOptions& options) {
+    auto plan = std::make_unique<MaskPlan>();
+    plan->desc = maskDesc(options, field.desc().seed);
+    plan->occluders = triangleBounds(*setup.scene, setup.pose);
+    plan->desc.occluders = plan->occluders;
+    if (!field.desc().relocation) return plan;
+    if (field.control().frame() == 0)
         if (auto updated = field.update(tracer, setup.lighting); !updated) return updated.error();
-    }
-    if (field.desc().relocation)
-        for (int slot = 0; slot < probeCount(field.desc()); ++slot)
-            positions.push_back(field.control().probePosition(slot));
-    desc.positions = positions;
-    auto masks = bakeMasks(context, tracer, field.desc(), desc);
-    if (!masks) return masks.error();
+    for (int slot = 0; slot < probeCount(field.desc()); ++slot)
+        plan->positions.push_back(field.control().probePosition(slot));
+    plan->desc.positions = plan->positions;
+    return plan;
+}
+
+Result<void> useMasks(Field& field, std::shared_ptr<const Masks> masks) {
     FieldSettings settings = field.control().settings();
     settings.guard = LeakGuard::masks;
-    settings.masks = std::move(*masks);
+    settings.masks = std::move(masks);
     return field.control().setSettings(settings);
+}
+
+Result<void> bakeMasksFor(Field& field, const Context& context, const Tracer& tracer, const LoadedSetup& setup,
+                          const MaskOptions& options) {
+    const auto plan = planMasks(field, tracer, setup, options);
+    if (!plan) return plan.error();
+    auto masks = bakeMasks(context, tracer, field.desc(), (*plan)->desc);
+    if (!masks) return masks.error();
+    return useMasks(field, std::move(*masks));
 }
 
 }  // namespace probegi::tool

@@ -198,6 +198,8 @@ void checkOptions(const CLI::App& command, const RenderOptions& options) {
         throw CLI::ValidationError("--leak-guard",
                                    "the file of --field says whether it is moments or masks; with it give sdf-shadow "
                                    "and --sdf, --method leaky, or nothing");
+    if (options.masks.budget > 0 && options.animate.empty())
+        throw CLI::ValidationError("--mask-budget", "it limits what masks of moving things may take: give --animate");
     if (!options.budget.empty() && (!hasProbes(options) || (options.animate.empty() && !options.run.frames)))
         throw CLI::ValidationError("--budget", "it limits the real-time updates of probes: give --frames or --animate");
     if (options.method == Method::reference && options.backend.kind == BackendKind::vulkan)
@@ -364,7 +366,7 @@ void addMethodOptions(CLI::App& command, RenderOptions& options) {
                     "triangles, so that only --leak-guard sdf-shadow asks the primitives")
         ->type_name("sdf|mesh")
         ->transform(oneOf(kProbeRays));
-    addMaskOptions(command, options.masks, {.sdfShadow = true});
+    addMaskOptions(command, options.masks, {.sdfShadow = true, .moves = true});
     addFieldRunOptions(command, options.run);
     command
         .add_option(

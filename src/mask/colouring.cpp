@@ -47,6 +47,7 @@ public:
         return m_cost[slot * m_colours + colour] - m_cost[slot * m_colours + m_clusters[slot]];
     }
     void take(std::size_t slot, std::size_t colour) {
+        m_gain -= double(change(slot, colour));
         const std::size_t before = m_clusters[slot];
         m_graph.forNeighbours(slot, [&](std::size_t other, float difference) {
             const float cost = costOf(difference, m_sparsity);
@@ -56,6 +57,7 @@ public:
         m_clusters[slot] = std::uint8_t(colour);
     }
     const Clusters& clusters() const { return m_clusters; }
+    double gain() const { return m_gain; }  ///< by how much the loss has fallen
 
 private:
     const ProbeGraph& m_graph;
@@ -63,6 +65,7 @@ private:
     float m_sparsity;
     Clusters m_clusters;
     std::vector<float> m_cost;
+    double m_gain = 0;
 };
 
 /// Every probe once: takes another colour, at random, by the rule of Metropolis.
@@ -76,6 +79,10 @@ void sweep(Colouring& colouring, std::span<const std::size_t> slots, float tempe
         if (change <= 0.0f || kernels::nextRandom(random) < std::exp(-change / temperature))
             colouring.take(slot, colour);
     }
+}
+
+float temperatureAt(int i, int sweeps, float hottest, float coldest) {
+    return hottest * std::pow(coldest / hottest, float(i) / float(std::max(1, sweeps - 1)));
 }
 
 /// Until no probe alone can do better. Rounding of the sums could go in circles: a gain must be worth it.
@@ -165,8 +172,7 @@ Result<Clusters> annealColours(const Context& context, const ProbeGraph& graph, 
     const float coldest = coldestOf(desc.sparsity), hottest = std::max(graph.largest(), coldest);
     kernels::uint random = kernels::hashCombine(kernels::uint(desc.seed), kernels::uint(desc.seed >> 32));
     for (int i = 0; i < desc.sweeps; ++i) {
-        const float done = float(i) / float(std::max(1, desc.sweeps - 1));
-        sweep(colouring, all, hottest * std::pow(coldest / hottest, done), random);
+        sweep(colouring, all, temperatureAt(i, desc.sweeps, hottest, coldest), random);
         if (!progress.advance()) return fail(ErrorCode::cancelled, "cancelled while baking masks");
     }
     goDownhill(colouring, all, 0.5f * coldest);
@@ -174,12 +180,17 @@ Result<Clusters> annealColours(const Context& context, const ProbeGraph& graph, 
     return colouringLoss(graph, found, desc.sparsity) < colouringLoss(graph, start, desc.sparsity) ? found : start;
 }
 
-void recolour(const ProbeGraph& graph, std::span<const std::size_t> slots, int colours, float sparsity,
+void recolour(const ProbeGraph& graph, std::span<const std::size_t> slots, const ColouringDesc& desc,
               Clusters& clusters) {
-    if (colours < 2 || slots.empty()) return;
-    Colouring colouring(graph, std::move(clusters), slots, colours, sparsity);
-    goDownhill(colouring, slots, 0.5f * coldestOf(sparsity));
-    clusters = colouring.clusters();
+    if (desc.clusters < 2 || slots.empty()) return;
+    const float coldest = coldestOf(desc.sparsity), hottest = std::max(graph.largest(), coldest);
+    Colouring near(graph, clusters, slots, desc.clusters, desc.sparsity), annealed = near;
+    goDownhill(near, slots, 0.5f * coldest);
+    kernels::uint random = kernels::hashCombine(kernels::uint(desc.seed), kernels::uint(desc.seed >> 32));
+    for (int i = 0; i < desc.sweeps; ++i)
+        sweep(annealed, slots, temperatureAt(i, desc.sweeps, hottest, coldest), random);
+    goDownhill(annealed, slots, 0.5f * coldest);
+    clusters = (annealed.gain() > near.gain() ? annealed : near).clusters();
 }
 
 }  // namespace probegi

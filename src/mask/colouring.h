@@ -28,9 +28,9 @@ double colouringLoss(const ProbeGraph& graph, const Clusters& clusters, float sp
 Result<Clusters> annealColours(const Context& context, const ProbeGraph& graph, Clusters start,
                                const ColouringDesc& desc);
 
-/// Colours some probes again, the others as they are: downhill from what they have, one probe after the other, until none
-/// alone can do better, so that few change. `slots` in rising order.
-void recolour(const ProbeGraph& graph, std::span<const std::size_t> slots, int colours, float sparsity,
+/// Colours some probes again, the others as they are: by annealing these alone, and by going downhill from what they have;
+/// the better one. `slots` in rising order.
+void recolour(const ProbeGraph& graph, std::span<const std::size_t> slots, const ColouringDesc& desc,
               Clusters& clusters);
 
 }  // namespace probegi

@@ -20,6 +20,9 @@ namespace {
 /// Cells that a thread does between two looks at the clock.
 constexpr std::size_t kCellsAtOnce = 2;
 
+/// Of annealing a few probes, in one step between two looks at the clock.
+constexpr int kMostSweeps = 200;
+
 Result<void> checkBoxes(std::span<const OrientedBox> boxes) {
     const auto finite = [](glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
     for (const OrientedBox& box : boxes)
@@ -198,7 +201,8 @@ void MaskUpdater::Impl::colour(MaskUpdate& done) {
         for (const std::size_t slot : met)
             if (!bake.graph->sameAround(firstGraph, slot)) parted.push_back(slot);
         Clusters clusters = firstClusters;
-        recolour(*bake.graph, parted, bake.desc.clusters, bake.desc.sparsity, clusters);
+        const MaskDesc& d = bake.desc;
+        recolour(*bake.graph, parted, {d.clusters, std::min(d.sweeps, kMostSweeps), d.sparsity, d.seed}, clusters);
         for (const std::size_t slot : met) {
             if (clusters[slot] == bake.clusters[slot]) continue;
             ++done.recoloured;

@@ -114,6 +114,7 @@ Result<float> sharedExposure(Animation& animation) {
         all.pixels.insert(all.pixels.end(), picture->color.pixels.begin(), picture->color.pixels.end());
     }
     if (const auto back = animation.scene.moveTo(animation.times.at(0), 0); !back) return back.error();
+    if (const auto settled = animation.scene.settleMasks(); !settled) return settled.error();
     animation.scene.watchFromHere();
     if (before)
         if (auto written = field->write(*before); !written) return written.error();
@@ -151,6 +152,8 @@ std::string animationJson(const Animation& animation, const FieldRun& fill, doub
                         {"editsMs", f.move.edits},
                         {"edits", f.move.editsFound},
                         {"masksMs", f.move.masks},
+                        {"maskCells", f.move.maskCells},
+                        {"masksSettled", f.move.masksSettled},
                         {"updatedProbes", mean(f.move.updated)},
                         {"updateMs", f.move.update},
                         {"pictureMs", f.pictureMs},

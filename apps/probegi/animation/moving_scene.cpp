@@ -1,6 +1,5 @@
 #include "animation/moving_scene.h"
 
-#include <algorithm>
 #include <chrono>
 #include <glm/ext/matrix_transform.hpp>
 #include <vector>
@@ -36,12 +35,6 @@ ScenePose withHiddenAsSpecks(const Scene& scene, ScenePose pose) {
     return pose;
 }
 
-bool sameInstances(const std::vector<Instance>& a, const std::vector<Instance>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Instance& x, const Instance& y) {
-        return x.mesh == y.mesh && x.node == y.node && x.toWorld == y.toWorld;
-    });
-}
-
 double millisecondsSince(Clock::time_point& start) {
     const auto now = Clock::now();
     const double passed = std::chrono::duration<double, std::milli>(now - start).count();
@@ -68,10 +61,32 @@ Result<void> MovingScene::moveGuard(const ScenePose& pose) {
     return m_field->control().setSettings(settings);
 }
 
-// Masks know geometry only, and only as it stands: where things move they are baked again, all of them.
-Result<void> MovingScene::bakeMasksHere() {
+Result<void> MovingScene::bakeMasks() {
     if (!m_field || !m_options->masks.bakes()) return {};
-    return bakeMasksFor(*m_field, *m_context, *m_tracer, *m_setup, m_options->masks);
+    const auto plan = planMasks(*m_field, *m_tracer, *m_setup, m_options->masks);
+    if (!plan) return plan.error();
+    const std::vector<OrientedBox> boxes =
+        movingBoxes(*m_setup->scene, withHiddenAsSpecks(*m_setup->scene, m_setup->pose));
+    auto updater = MaskUpdater::create(*m_context, *m_tracer, m_field->desc(), (*plan)->desc, boxes);
+    if (!updater) return updater.error();
+    m_masks.emplace(std::move(*updater));
+    return useMasks(*m_field, m_masks->masks());
+}
+
+Result<void> MovingScene::moveMasks(const ScenePose& pose, MoveTimes& times) {
+    if (!m_masks) return {};
+    if (auto moved = m_masks->move(movingBoxes(*m_setup->scene, pose)); !moved) return moved;
+    const auto updated = m_masks->update(*m_tracer, {.milliseconds = m_options->masks.budget});
+    if (!updated) return updated.error();
+    times.maskCells = updated->solvedCells;
+    times.masksSettled = updated->settled;
+    return updated->published ? useMasks(*m_field, m_masks->masks()) : Result<void>();
+}
+
+Result<void> MovingScene::settleMasks() {
+    if (!m_masks || m_masks->settled()) return {};
+    const auto updated = m_masks->update(*m_tracer);
+    return updated ? useMasks(*m_field, m_masks->masks()) : Result<void>(updated.error());
 }
 
 Result<MovingScene> MovingScene::open(const Context& context, const Backend& backend, LoadedSetup& setup,
@@ -97,7 +112,7 @@ Result<MovingScene> MovingScene::open(const Context& context, const Backend& bac
 Result<FieldRun> MovingScene::fill() {
     if (!m_field) return FieldRun();
     if (auto told = tellField(); !told) return told.error();
-    if (auto baked = bakeMasksHere(); !baked) return baked.error();
+    if (auto baked = bakeMasks(); !baked) return baked.error();
     return runField(*m_field, probeTracer(), m_setup->lighting, m_options->run);
 }
 
@@ -108,10 +123,9 @@ void MovingScene::watchFromHere() {
 Result<MoveTimes> MovingScene::moveTo(double seconds, int updates) {
     MoveTimes times;
     auto start = Clock::now();
-    const std::vector<Instance> before = m_setup->pose.instances;
     if (auto moved = moveSetup(*m_setup, m_options->scene, float(seconds)); !moved) return moved.error();
+    const ScenePose pose = withHiddenAsSpecks(*m_setup->scene, m_setup->pose);
     if (!m_setup->scene->animations.empty()) {
-        const ScenePose pose = withHiddenAsSpecks(*m_setup->scene, m_setup->pose);
         for (MovableTracer* tracer : {m_tracer.get(), m_probeTracer.get()}) {
             if (!tracer) continue;
             if (auto moved = tracer->setPose(pose); !moved) return moved.error();
@@ -126,8 +140,7 @@ Result<MoveTimes> MovingScene::moveTo(double seconds, int updates) {
         times.editsFound = int(edits->size());
     }
     times.edits = millisecondsSince(start);
-    if (!sameInstances(before, m_setup->pose.instances))
-        if (auto baked = bakeMasksHere(); !baked) return baked.error();
+    if (auto moved = moveMasks(pose, times); !moved) return moved.error();
     times.masks = millisecondsSince(start);
     if (auto told = tellField(); !told) return told.error();
     for (int i = 0; m_field && i < updates; ++i) {

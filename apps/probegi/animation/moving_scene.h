@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "probegi/edits.h"
+#include "probegi/mask_updater.h"
 #include "render_options.h"
 
 namespace probegi::tool {
@@ -12,9 +13,11 @@ namespace probegi::tool {
 struct MoveTimes {
     double pose = 0;    ///< the scene's and the tracer's
     double edits = 0;   ///< to find them
-    double masks = 0;   ///< to bake them again, where things moved
+    double masks = 0;   ///< what moved costs the masks
     double update = 0;  ///< all updates together
     int editsFound = 0;
+    std::size_t maskCells = 0;  ///< whose masks were solved again
+    bool masksSettled = true;   ///< masks are those of the scene as it is
     std::vector<std::size_t> updated{};  ///< probes of each update
 };
 
@@ -30,6 +33,8 @@ public:
     Result<FieldRun> fill();
     /// To another moment, in seconds, followed by so many updates. Errors: those of the tracer and the field.
     Result<MoveTimes> moveTo(double seconds, int updates);
+    /// Finishes the masks of the scene as it is, whatever --mask-budget says. Errors: those of the tracer.
+    Result<void> settleMasks();
     /// Forgets what moved since: edits are found against the scene as it is now.
     void watchFromHere();
 
@@ -42,7 +47,8 @@ private:
     Result<void> tellField();
     /// LeakGuard::sdfShadow.
     Result<void> moveGuard(const ScenePose& pose);
-    Result<void> bakeMasksHere();
+    Result<void> bakeMasks();
+    Result<void> moveMasks(const ScenePose& pose, MoveTimes& times);
     /// What probe rays hit.
     const Tracer& probeTracer() const { return m_probeTracer ? *m_probeTracer : *m_tracer; }
 
@@ -53,6 +59,7 @@ private:
     std::unique_ptr<MovableTracer> m_probeTracer;  // null: probe rays hit what pictures show
     std::optional<Field> m_field;
     std::optional<SceneWatch> m_watch;
+    std::optional<MaskUpdater> m_masks;
 };
 
 }  // namespace probegi::tool
