@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -53,6 +55,7 @@ Json gridOf(const Scene& scene, const ScenePose& pose) {
     return {{"source", scene.grid ? "scene" : "automatic"},
             {"origin", toJson(grid->origin + scene.origin)},
             {"spacing", toJson(grid->spacing)},
+            {"turnedDegrees", glm::degrees(glm::angle(grid->orientation))},
             {"counts", {grid->counts.x, grid->counts.y, grid->counts.z}},
             {"probes", probeCount(*grid)},
             {"furtherGrids", scene.furtherGrids.size()}};
@@ -115,8 +118,10 @@ void printCameras(const Json& info) {
 void printGrid(const Json& grid) {
     if (grid.is_null()) return;
     const Json& n = grid["counts"];
-    fmt::print("probe grid  {} x {} x {} = {} probes from {} every {} m ({})\n", n[0].get<int>(), n[1].get<int>(),
+    const double turned = grid["turnedDegrees"];
+    fmt::print("probe grid  {} x {} x {} = {} probes from {} every {} m{} ({})\n", n[0].get<int>(), n[1].get<int>(),
                n[2].get<int>(), grid["probes"].get<int>(), vectorText(grid["origin"]), vectorText(grid["spacing"]),
+               turned > 0 ? fmt::format(", turned by {:.1f} degrees", turned) : "",
                grid["source"] == "scene" ? "from the scene" : "placed automatically, by bounds and walls");
     if (const std::size_t further = grid["furtherGrids"].get<std::size_t>(); further > 0)
         fmt::print("            and {} more from the scene\n", further);

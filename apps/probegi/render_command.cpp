@@ -335,7 +335,6 @@ void addAnimationOptions(CLI::App& command, RenderOptions& options) {
         ->type_name("N")
         ->check(inRange(1, 1000))
         ->group(kGroup);
-    static const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
     command
         .add_option("--events", options.events,
                     "tell the probes near large changes to follow faster for some updates (default on)")
@@ -376,7 +375,6 @@ void addMethodOptions(CLI::App& command, RenderOptions& options) {
             "(default: all probes in every update)")
         ->type_name("RAYS|MSms")
         ->check(parsedBy(parseBudget));
-    static const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
     command.add_option("--spp", options.samplesPerPixel, "reference: samples per pixel (default 64 without --time)")
         ->type_name("N")
         ->check(inRange(1, 1e6));

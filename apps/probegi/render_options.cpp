@@ -27,7 +27,6 @@ void addProbeOptions(CLI::App& command, RenderOptions& options) {
         ->type_name("N")
         ->check(inRange(8, 4096))
         ->capture_default_str();
-    static const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
     command
         .add_option("--relocation", options.relocation,
                     "probes leave walls and keep a distance from surfaces (default off)")

@@ -81,6 +81,14 @@ void addGridOptions(CLI::App& command, SceneOptions& options) {
             ->check(parsedBy(parseVolume))
             ->excludes(probes)
             ->group(kGroup);
+    command
+        .add_option("--turn-grid", options.turnGrid,
+                    "whether a grid that is laid over the scene turns with a building that stands obliquely (default "
+                    "on)")
+        ->type_name("on|off")
+        ->transform(oneOf(kOnOff))
+        ->excludes(volume)
+        ->group(kGroup);
     addVolumeOptions(command, options.volumes, {probes, volume});
 }
 

@@ -141,6 +141,7 @@ Result<Volumes> makeVolumes(const SceneOptions& options, const Scene& scene, con
             return Volumes{grid};
         });
     PlacementDesc placement;
+    placement.turned = options.turnGrid;
     if (!options.probes.empty()) {
         placement.counts = *parseCounts(options.probes);
     } else if (scene.grid) {

@@ -32,6 +32,7 @@ struct SceneOptions {
     std::string sky;                        ///< R,G,B or a file
 
     std::string volume, probes;      ///< --volume, --probes
+    bool turnGrid = true;            ///< --turn-grid: of a grid that is laid over the scene
     VolumeOptions volumes;           ///< --cascades, --outside
     std::vector<VolumeDesc> given;   ///< volumes of a field that was read, in place of all others; empty: none
     std::string exposure = "scene";  ///< --exposure

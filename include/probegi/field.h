@@ -161,6 +161,7 @@ struct PlacementDesc {
     glm::ivec3 counts{0};      ///< probes per axis; 0: from the scene's size
     int targetProbes = 8192;   ///< about how many where counts is 0, 8..2^24
     float marginCells = 1.0f;  ///< cells beyond the scene's bounds on every side, >= 0
+    bool turned = true;        ///< placeVolume() by walls: the grid turns with a building that stands obliquely
 };
 
 /// A grid that covers the bounds with the asked-for margin and near-cubic cells.
@@ -170,9 +171,10 @@ PROBEGI_API Result<VolumeDesc> placeVolume(const Bounds& bounds, const Placement
 /// The same around everything that the tracer can hit, with an eye to what lies across the grid's axes: walls, floors
 /// and ceilings, as rays from inside the scene find them. Light at a surface is best known where probes stand a fifth
 /// of a cell in front of it, so along each axis the probes are moved by up to half a cell and drawn apart or together
-/// by a few per cent; as many probes, and the margin holds. Axes along which there are no such surfaces (a scene that
-/// is turned, ground that rolls) stay as above. Takes some 16,000 rays; the same grid for the same scene. Errors: those
-/// above, and those of the tracer.
+/// by a few per cent; as many probes, and the margin holds. Axes along which there are no such surfaces (ground that
+/// rolls) stay as above. Where many more surfaces stand by other axes than by the world's, the grid is turned to these
+/// (`turned`), and covers what rays from outside find along them. Takes some 16,000 rays, and as many again where it is
+/// turned; the same grid for the same scene. Errors: those above, and those of the tracer.
 PROBEGI_API Result<VolumeDesc> placeVolume(const Tracer& tracer, const PlacementDesc& desc = {});
 
 /// Nested volumes around a point, each coarser than the one inside it (section 7.4).

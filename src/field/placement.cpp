@@ -76,18 +76,29 @@ Result<VolumeDesc> placeVolume(const Bounds& bounds, const PlacementDesc& desc) 
 }
 
 Result<VolumeDesc> placeVolume(const Tracer& tracer, const PlacementDesc& desc) {
-    const Bounds bounds = tracer.bounds();
-    auto grid = placeVolume(bounds, desc);
-    if (!grid) return grid;
+    if (auto placeable = placeVolume(tracer.bounds(), desc); !placeable) return placeable;
     const auto walls = findWalls(tracer);
     if (!walls) return walls.error();
+    Bounds bounds = tracer.bounds();
+    const glm::quat frame = desc.turned ? wallFrame(*walls) : VolumeDesc{}.orientation;
+    if (frame != VolumeDesc{}.orientation) {
+        const auto turned = boundsInFrame(tracer, *walls, frame);
+        if (!turned) return turned.error();
+        bounds = *turned;
+    }
+    auto grid = placeVolume(bounds, desc);
+    if (!grid) return grid;
     for (int axis = 0; axis < 3; ++axis) {
+        glm::vec3 along(0.0f);
+        along[axis] = 1;
         const AxisPlacement fitted =
-            fitToWalls(walls->across[std::size_t(axis)], walls->seen, {grid->origin[axis], grid->spacing[axis]},
+            fitToWalls(wallsAcross(*walls, frame * along), walls->size(), {grid->origin[axis], grid->spacing[axis]},
                        grid->counts[axis], bounds.lower[axis], bounds.upper[axis], desc.marginCells);
         grid->origin[axis] = fitted.first;
         grid->spacing[axis] = fitted.spacing;
     }
+    grid->origin = frame * grid->origin;
+    grid->orientation = frame;
     return grid;
 }
 

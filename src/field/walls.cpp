@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "field/layout.h"
 #include "kernels/random.h"
@@ -15,7 +16,7 @@ namespace {
 constexpr std::uint32_t kOrigins = 2048;
 constexpr std::uint32_t kRaysPerOrigin = 8;
 constexpr int kMostBacks = kRaysPerOrigin / 4;  ///< for an origin in the open
-constexpr float kAcross = 0.99f;                ///< normal component from which a surface counts as axis-aligned
+constexpr float kAcross = 0.99f;                ///< normal component from which a surface is across an axis
 
 // In cells. Measured error at surfaces over the distance of the first layer of probes (docs/accuracy.md): lowest at a
 // fifth of a cell, growing linearly from there.
@@ -29,7 +30,7 @@ constexpr float kLeastStretch = 0.95f, kMostStretch = 1.08f;
 constexpr int kStretches = 14, kPhases = 32;
 // The probes stay if less than this share of the squared error can be gained, which is insignificant.
 constexpr float kLeastGain = 0.1f;
-// Minimum share of axis-aligned points among those found.
+// Minimum share of points across the axis among those found.
 constexpr float kLeastShare = 0.05f;
 
 float unit(std::uint32_t& state) {
@@ -49,18 +50,13 @@ void makeRays(const Bounds& bounds, std::uint32_t first, std::span<Ray> rays) {
     }
 }
 
-void addPlaces(std::span<const Hit> hits, std::span<const Surface> surfaces, Walls& walls) {
+void addSamples(std::span<const Hit> hits, std::span<const Surface> surfaces, std::vector<WallSample>& samples) {
     int backs = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) backs += hits[i].valid() && surfaces[i].back ? 1 : 0;
     if (backs > kMostBacks) return;
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        if (!hits[i].valid() || surfaces[i].back) continue;
-        ++walls.seen;
-        for (int axis = 0; axis < 3; ++axis)
-            if (std::abs(surfaces[i].geometricNormal[axis]) > kAcross)
-                walls.across[std::size_t(axis)].push_back(
-                    {surfaces[i].position[axis], surfaces[i].geometricNormal[axis] > 0});
-    }
+    for (std::size_t i = 0; i < hits.size(); ++i)
+        if (hits[i].valid() && !surfaces[i].back)
+            samples.push_back({surfaces[i].position, surfaces[i].geometricNormal});
 }
 
 // Mean squared error of the light at the walls, in units of square metres.
@@ -77,21 +73,29 @@ double squaredError(const std::vector<WallPoint>& walls, AxisPlacement p) {
 
 }  // namespace
 
-Result<Walls> findWalls(const Tracer& tracer) {
+Result<std::vector<WallSample>> findWalls(const Tracer& tracer) {
     constexpr std::uint32_t kBatch = 256;  // origins
     std::vector<Ray> rays(kBatch * kRaysPerOrigin);
     std::vector<Hit> hits(rays.size());
     std::vector<Surface> surfaces(rays.size());
     const Bounds bounds = tracer.bounds();
-    Walls walls;
+    std::vector<WallSample> samples;
     for (std::uint32_t first = 0; first < kOrigins; first += kBatch) {
         makeRays(bounds, first, rays);
         if (const auto traced = tracer.closestHits(rays, hits); !traced) return traced.error();
         if (const auto resolved = tracer.surfaces(rays, hits, surfaces); !resolved) return resolved.error();
         for (std::size_t i = 0; i < rays.size(); i += kRaysPerOrigin)
-            addPlaces(std::span(hits).subspan(i, kRaysPerOrigin), std::span(surfaces).subspan(i, kRaysPerOrigin),
-                      walls);
+            addSamples(std::span(hits).subspan(i, kRaysPerOrigin), std::span(surfaces).subspan(i, kRaysPerOrigin),
+                       samples);
     }
+    return samples;
+}
+
+std::vector<WallPoint> wallsAcross(std::span<const WallSample> samples, glm::vec3 axis) {
+    std::vector<WallPoint> walls;
+    for (const WallSample& s : samples)
+        if (const float facing = glm::dot(s.normal, axis); std::abs(facing) > kAcross)
+            walls.push_back({glm::dot(s.position, axis), facing > 0});
     return walls;
 }
 

@@ -1,28 +1,25 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
-#include "probegi/tracer.h"
+#include "field/wall_frame.h"
 
 namespace probegi {
 
-/// A point on an axis-aligned surface.
+/// A point on a surface across an axis.
 struct WallPoint {
     float place;  ///< along the axis, metres
     bool up;      ///< the surface faces up the axis, else down it
 };
 
-/// The surfaces visible from inside a scene's bounds.
-struct Walls {
-    std::array<std::vector<WallPoint>, 3> across;  ///< by axis; other surfaces are in no list
-    std::size_t seen = 0;                          ///< all points found, other surfaces included
-};
+/// Surfaces visible from inside a scene's bounds, by rays from points spread over these, except those in solid matter:
+/// a wall counts by its area and by the open space in front of it. Deterministic. Errors: those of the tracer.
+Result<std::vector<WallSample>> findWalls(const Tracer& tracer);
 
-/// Finds them by rays from points spread over the bounds, except those in solid matter: a wall counts by its area and
-/// by the open space in front of it. Deterministic. Errors: those of the tracer.
-Result<Walls> findWalls(const Tracer& tracer);
+/// Those across an axis, a unit vector.
+std::vector<WallPoint> wallsAcross(std::span<const WallSample> samples, glm::vec3 axis);
 
 /// Positions of the probes along one axis.
 struct AxisPlacement {

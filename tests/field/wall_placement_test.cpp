@@ -12,9 +12,8 @@
 namespace probegi {
 namespace {
 
-// A box of six quads, turned about the vertical; with `inward`, the fronts are inside.
-void addBox(test::AnalyticTracer& world, glm::vec3 lower, glm::vec3 upper, bool inward, float degrees = 0) {
-    const glm::quat turn = glm::angleAxis(glm::radians(degrees), glm::vec3(0, 1, 0));
+// A box of six quads, turned; with `inward`, the fronts are inside.
+void addBox(test::AnalyticTracer& world, glm::vec3 lower, glm::vec3 upper, bool inward, const glm::quat& turn) {
     for (int axis = 0; axis < 3; ++axis)
         for (const bool high : {false, true}) {
             glm::vec3 corner = lower, u(0), v(0);
@@ -24,6 +23,11 @@ void addBox(test::AnalyticTracer& world, glm::vec3 lower, glm::vec3 upper, bool 
             if (high == inward) std::swap(u, v);
             world.addQuad(turn * corner, turn * u, turn * v, 0);
         }
+}
+
+// About the vertical.
+void addBox(test::AnalyticTracer& world, glm::vec3 lower, glm::vec3 upper, bool inward, float degrees = 0) {
+    addBox(world, lower, upper, inward, glm::angleAxis(glm::radians(degrees), glm::vec3(0, 1, 0)));
 }
 
 // A room with walls of the given thickness.
@@ -93,15 +97,15 @@ TEST(WallPlacement, countsAndMarginAreKept) {
 TEST(WallPlacement, whatIsNotSeenDoesNotCount) {
     // The outer faces have more area than the inner ones, but their fronts are not visible from the room or the walls.
     const test::AnalyticTracer world = room(kLower, kUpper, 0.7f);
-    const Walls walls = *findWalls(world);
+    const std::vector<WallSample> samples = *findWalls(world);
     for (int axis = 0; axis < 3; ++axis) {
-        EXPECT_GT(walls.across[std::size_t(axis)].size(), 500u);
-        for (const WallPoint& wall : walls.across[std::size_t(axis)])
-            EXPECT_NEAR(wall.place, wall.up ? kLower[axis] : kUpper[axis], 1e-4f);
-    }
-    // In a convex room, points are seen in proportion to area times mean visible distance: all of them, and by symmetry
-    // equally often up and down an axis.
-    for (const auto& across : walls.across) {
+        glm::vec3 along(0);
+        along[axis] = 1;
+        const std::vector<WallPoint> across = wallsAcross(samples, along);
+        EXPECT_GT(across.size(), 500u);
+        for (const WallPoint& wall : across) EXPECT_NEAR(wall.place, wall.up ? kLower[axis] : kUpper[axis], 1e-4f);
+        // In a convex room, points are seen in proportion to area times mean visible distance: all of them, and by
+        // symmetry equally often up and down an axis.
         const auto up = std::count_if(across.begin(), across.end(), [](const WallPoint& w) { return w.up; });
         EXPECT_NEAR(double(up) / double(across.size()), 0.5, 0.05);
     }
@@ -122,13 +126,49 @@ TEST(WallPlacement, floorsCountWhereThereAreNoWalls) {
     }
 }
 
-TEST(WallPlacement, aTurnedRoomIsPlacedByFloorAndCeilingOnly) {
+TEST(WallPlacement, aTurnedRoomOfAGridThatMustNotTurnIsPlacedByFloorAndCeilingOnly) {
     const test::AnalyticTracer world = room(kLower, kUpper, 0.2f, 30);
-    const auto grid = placeVolume(world), byBounds = placeVolume(world.bounds());
+    const auto grid = placeVolume(world, {.turned = false}), byBounds = placeVolume(world.bounds());
     ASSERT_TRUE(grid && byBounds);
     for (const int axis : {0, 2}) EXPECT_EQ(grid->origin[axis], byBounds->origin[axis]);
     EXPECT_NEAR(cellsInFront(*grid, 1, kLower.y, true), 0.2f, 0.15f);
     EXPECT_NEAR(cellsInFront(*grid, 1, kUpper.y, false), 0.2f, 0.15f);
+}
+
+// Turned about any axis, a room has the grid that it has when it stands straight, turned with it.
+TEST(WallPlacement, theGridTurnsWithARoom) {
+    const test::AnalyticTracer straight = room(kLower, kUpper, 0.2f);
+    const VolumeDesc upright = *placeVolume(straight);
+    EXPECT_EQ(upright.orientation, VolumeDesc{}.orientation);
+    for (const glm::vec3 axis : {glm::vec3(0, 1, 0), glm::vec3(0, -1, 0), glm::normalize(glm::vec3(1, 2, -0.5f))})
+        for (const float degrees : {12.0f, 30.0f, 44.0f}) {
+            const glm::quat turn = glm::angleAxis(glm::radians(degrees), axis);
+            test::AnalyticTracer world;
+            world.materials.resize(1);
+            addBox(world, kLower, kUpper, true, turn);
+            addBox(world, kLower - 0.2f, kUpper + 0.2f, false, turn);
+            const auto grid = placeVolume(world);
+            ASSERT_TRUE(grid) << grid.error().message;
+            EXPECT_GT(std::abs(glm::dot(grid->orientation, turn)), 0.99999f) << degrees;
+            EXPECT_EQ(grid->counts, upright.counts);
+            VolumeDesc back = *grid;  // as it stands to the room
+            back.origin = glm::conjugate(turn) * back.origin;
+            EXPECT_LT(cellsOff(back), 0.1f) << degrees;
+            expectMargin(back, straight.bounds(), 0.98f);
+            EXPECT_NEAR(back.spacing.x / upright.spacing.x, 1, 0.05f);
+        }
+}
+
+// A room that stands obliquely in a hall of the world's axes, and things without any direction, turn nothing.
+TEST(WallPlacement, theGridStandsStraightWhereMostDoes) {
+    test::AnalyticTracer hall, balls;
+    hall.materials.resize(1), balls.materials.resize(1);
+    addBox(hall, {-9, 0, -9}, {9, 5, 9}, true);
+    addBox(hall, {-9.2f, -0.2f, -9.2f}, {9.2f, 5.2f, 9.2f}, false);
+    addBox(hall, {1, 0.01f, 1}, {3, 2, 4}, false, 30);
+    for (int i = 0; i < 9; ++i) balls.addSphere({2 * (i % 3), i / 3, -i}, 0.8f, false, 0);
+    for (const test::AnalyticTracer* world : {&hall, &balls})
+        EXPECT_EQ(placeVolume(*world)->orientation, VolumeDesc{}.orientation);
 }
 
 TEST(WallPlacement, aLoneObjectAndAVoidKeepTheGridOfTheirBounds) {

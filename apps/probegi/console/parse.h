@@ -50,6 +50,9 @@ CLI::Validator wholeNumber();
 /// Adds --unpack-limit, and puts its name into the limits, for their error messages.
 void addUnpackLimit(CLI::App& command, ReadLimits& limits);
 
+/// For oneOf(): the values of a switch.
+inline const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
+
 /// Turns the name of an enumerator into its number, which CLI11 reads; rejects other names, listing the valid ones.
 template <class Enum>
 CLI::Validator oneOf(const std::map<std::string, Enum>& names) {
