@@ -143,7 +143,10 @@ double between(Field& field, const std::shared_ptr<const Masks>& a, const std::s
 class Swing {
 public:
     Swing(const Context& context, const MaskDesc& desc)
-        : m_context(context), m_house(context), m_rooms(m_house), m_field(must(Field::create(context, m_house.desc()))) {
+        : m_context(context),
+          m_house(context),
+          m_rooms(m_house),
+          m_field(must(Field::create(context, m_house.desc()))) {
         m_row.scene = "house";
         m_row.masks = desc;
         m_house.turn(1);
@@ -252,7 +255,8 @@ std::string doorTable(const std::vector<DoorRow>& rows) {
         "frames and shuts in as many. `MaskUpdater` has {1:.0f} ms a frame. Bake: seconds of a full one. Ms: the "
         "updater's, mean and most. Behind: frames after the door has stopped until the masks are those of the open "
         "door. Leak: light in the study that the same probes have not by exact visibility of the moment, over the "
-        "kitchen's, worst of every fifth frame; stale: the same, had the masks stayed those of the open door. Open: RMS from "
+        "kitchen's, worst of every fifth frame; stale: the same, had the masks stayed those of the open door. Open: "
+        "RMS from "
         "a full bake of the open door, within {2:.0f} m of the door and elsewhere in the two rooms; in brackets the "
         "same of full bakes with two seeds. Shut: RMS of the door that is shut again from the first masks.\n\n"
         "| clusters | bake | ms | most | behind | leak | stale | open, at the door | open, elsewhere | shut |\n"

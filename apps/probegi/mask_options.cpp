@@ -65,7 +65,8 @@ void addMaskOptions(CLI::App& command, MaskOptions& options, MaskOptionsOf offer
 
 void checkMaskOptions(const MaskOptions& options, const VolumeOptions& volumes) {
     if (!options.bakes() && (options.clusters || options.factor || options.strict || options.budget > 0))
-        throw CLI::ValidationError("--clusters, --mask-factor, --mask-strict, --mask-budget", "they act on --leak-guard masks only");
+        throw CLI::ValidationError("--clusters, --mask-factor, --mask-strict, --mask-budget",
+                                   "they act on --leak-guard masks only");
     if (options.bakes() && volumes.cascades > 0)
         throw CLI::ValidationError("--leak-guard",
                                    "masks are baked for probes that stand still, without --cascades; with them give "

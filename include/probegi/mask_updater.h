@@ -29,11 +29,11 @@ struct MaskBudget {
 
 /// What one update did.
 struct MaskUpdate {
-    bool published = false;      ///< masks() are new
-    bool settled = true;         ///< nothing is left to do: masks() are those of the scene as it is
-    std::size_t seenCells = 0;   ///< whose visibility was traced
-    std::size_t solvedCells = 0; ///< whose masks were solved
-    std::size_t recoloured = 0;  ///< probes that have another cluster than before
+    bool published = false;       ///< masks() are new
+    bool settled = true;          ///< nothing is left to do: masks() are those of the scene as it is
+    std::size_t seenCells = 0;    ///< whose visibility was traced
+    std::size_t solvedCells = 0;  ///< whose masks were solved
+    std::size_t recoloured = 0;   ///< probes that have another cluster than before
     std::uint64_t rays = 0;
 };
 

@@ -132,8 +132,7 @@ Result<MaskBake> bakeMaskParts(const Context& context, const Tracer& tracer, con
     if (!clusters) return clusters.error();
     bake.clusters = std::move(*clusters);
     report.clusterSeconds = watch.lap();
-    const auto texels =
-        solveMasks(context, tracer, bake.cells, bake.sight, bake.clusters, {desc.factor, desc.strict});
+    const auto texels = solveMasks(context, tracer, bake.cells, bake.sight, bake.clusters, {desc.factor, desc.strict});
     if (!texels) return texels.error();
     report.maskSeconds = watch.lap();
     for (std::size_t c = 0; c < bake.cells.blocked.size(); ++c)

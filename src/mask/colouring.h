@@ -28,8 +28,8 @@ double colouringLoss(const ProbeGraph& graph, const Clusters& clusters, float sp
 Result<Clusters> annealColours(const Context& context, const ProbeGraph& graph, Clusters start,
                                const ColouringDesc& desc);
 
-/// Colours some probes again, the others as they are: by annealing these alone, and by going downhill from what they have;
-/// the better one. `slots` in rising order.
+/// Colours some probes again, the others as they are: by annealing these alone, and by going downhill from what they
+/// have; the better one. `slots` in rising order.
 void recolour(const ProbeGraph& graph, std::span<const std::size_t> slots, const ColouringDesc& desc,
               Clusters& clusters);
 

@@ -12,8 +12,8 @@ constexpr std::uint32_t kOpenTexel = texelOf(255);
 
 /// What the masks of a cell, or of many, add up to.
 struct MaskSums {
-    double residual = 0;             ///< eq. 5
-    double leaking = 0;              ///< the same for masks that see everything
+    double residual = 0;  ///< eq. 5
+    double leaking = 0;   ///< the same for masks that see everything
     std::uint64_t rays = 0;
     std::uint64_t seenClusters = 0;  ///< over all texels, of those in their cells
     std::uint64_t blind = 0;         ///< texels

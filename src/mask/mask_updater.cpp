@@ -94,8 +94,7 @@ struct MaskUpdater::Impl {
     }
 
     std::span<const glm::vec3> probesOf(const kernels::Volume& v) const {
-        return std::span(bake.cells.probes)
-            .subspan(std::size_t(v.firstSlot), std::size_t(kernels::volumeProbes(v)));
+        return std::span(bake.cells.probes).subspan(std::size_t(v.firstSlot), std::size_t(kernels::volumeProbes(v)));
     }
     std::size_t cellTexels() const { return weights.size(); }
     std::span<std::uint8_t> seenOf(std::size_t cell) {
@@ -112,9 +111,9 @@ struct MaskUpdater::Impl {
     bool settled() const { return !inCycle && changed.empty(); }
 
     Context context;
-    MaskBake bake;                // the masks to come
-    ProbeGraph firstGraph;        // of the first masks
-    Clusters firstClusters;       // likewise
+    MaskBake bake;           // the masks to come
+    ProbeGraph firstGraph;   // of the first masks
+    Clusters firstClusters;  // likewise
     std::vector<std::array<float, 8>> weights;
     std::vector<kernels::Volume> volumes;
     std::vector<glm::vec3> offsets;         // by volume: how far probes stand off their places
@@ -196,14 +195,18 @@ void MaskUpdater::Impl::colour(MaskUpdate& done) {
     for (const ChangedCell& cell : seeing.items) seen.push_back(cell.cell);
     toSolve.insert(seen.begin(), seen.end());
     bake.graph->update(bake.cells, bake.sight, seen);
-    if (bake.desc.clusters < 8) {  // otherwise each probe has its own
-        std::vector<std::size_t> parted;
-        for (const std::size_t slot : met)
-            if (!bake.graph->sameAround(firstGraph, slot)) parted.push_back(slot);
+    if (bake.desc.clusters < 8) {      // otherwise each probe has its own
+        std::set<std::size_t> parted;  // and those around them, which may make room
+        for (const std::size_t slot : met) {
+            if (bake.graph->sameAround(firstGraph, slot)) continue;
+            parted.insert(slot);
+            bake.graph->forNeighbours(slot, [&](std::size_t other, float) { parted.insert(other); });
+        }
+        const std::vector<std::size_t> again(parted.begin(), parted.end());
         Clusters clusters = firstClusters;
         const MaskDesc& d = bake.desc;
-        recolour(*bake.graph, parted, {d.clusters, std::min(d.sweeps, kMostSweeps), d.sparsity, d.seed}, clusters);
-        for (const std::size_t slot : met) {
+        recolour(*bake.graph, again, {d.clusters, std::min(d.sweeps, kMostSweeps), d.sparsity, d.seed}, clusters);
+        for (std::size_t slot = 0; slot < clusters.size(); ++slot) {
             if (clusters[slot] == bake.clusters[slot]) continue;
             ++done.recoloured;
             for (std::size_t corner = 0; corner < 8; ++corner)
@@ -286,8 +289,8 @@ Result<MaskUpdater> MaskUpdater::create(const Context& context, const Tracer& tr
 
 Result<void> MaskUpdater::move(std::span<const OrientedBox> boxes) try {
     if (boxes.size() != m_impl->boxes.size())
-        return fail(ErrorCode::invalidArgument, sentence("there are ", boxes.size(), " moving boxes; at first there were ",
-                                                         m_impl->boxes.size()));
+        return fail(ErrorCode::invalidArgument,
+                    sentence("there are ", boxes.size(), " moving boxes; at first there were ", m_impl->boxes.size()));
     if (auto ok = checkBoxes(boxes); !ok) return ok;
     for (std::size_t i = 0; i < boxes.size(); ++i)
         if (!same(boxes[i], m_impl->boxes[i])) m_impl->noteMove(i, boxes[i]);

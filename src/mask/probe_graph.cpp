@@ -87,8 +87,8 @@ void ProbeGraph::update(const MaskCells& cells, const ProbeSight& sight, std::sp
         for (std::size_t p = 0; p < kPairs.size(); ++p) sumPair(cells, cells.blocked[c], p);
 }
 
-// Over all cells that have both probes, in the order of their slots. Where the two do not lie apart along an axis, cells
-// on either side of them have both.
+// Over all cells that have both probes, in the order of their slots. Where the two do not lie apart along an axis,
+// cells on either side of them have both.
 void ProbeGraph::sumPair(const MaskCells& cells, const MaskCell& cell, std::size_t pair) {
     const std::size_t low = kPairs[pair].low, high = kPairs[pair].high, common = ~(low ^ high) & 7;
     const auto slotOf = [&](std::size_t corner) { return std::size_t(cell.slot[corner]); };
@@ -106,7 +106,8 @@ void ProbeGraph::sumPair(const MaskCells& cells, const MaskCell& cell, std::size
 int ProbeGraph::cellWith(const MaskCells& cells, std::size_t slot, std::size_t corner) const noexcept {
     const glm::ivec3 counts = latticeOf(slot).counts;
     const int row = counts.x, layer = row * counts.y;
-    const std::size_t toCorner = (corner & 1) + (corner >> 1 & 1) * std::size_t(row) + (corner >> 2) * std::size_t(layer);
+    const std::size_t toCorner =
+        (corner & 1) + (corner >> 1 & 1) * std::size_t(row) + (corner >> 2) * std::size_t(layer);
     if (slot < toCorner) return -1;
     // Numbers beyond the lattice's sides are those of other probes, which are no lowest ones or of other cells.
     const int number = m_cellAt[slot - toCorner];

@@ -32,7 +32,8 @@ Result<void> seeCell(const Tracer& tracer, const MaskCell& cell, int factor, Cel
     for (std::size_t t = 0; t < texels; ++t) {
         unsigned bits = 0;
         for (std::size_t i = 0; i < 8; ++i) bits |= work.blocked[i * texels + t] ? 0u : 1u << i;
-        const std::size_t own = ownProbe(cell, cell.texel(int(t) % factor, int(t) / factor % factor, int(t) / (factor * factor)));
+        const std::size_t own =
+            ownProbe(cell, cell.texel(int(t) % factor, int(t) / factor % factor, int(t) / (factor * factor)));
         seen[t] = own < 8 ? withOwnProbe(std::uint8_t(bits), own) : std::uint8_t(bits);
     }
     return {};

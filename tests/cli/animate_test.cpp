@@ -203,8 +203,8 @@ TEST_F(Animate, MasksFollowWhatMoves) {
 }
 
 TEST_F(Animate, MasksMayTakeSeveralPictures) {
-    const std::vector<std::string> more{"--leak-guard", "masks",  "--mask-budget", "0.1", "--mask-factor", "12",
-                                        "--camera",     "second", "--stats",       file("s.json")};
+    const std::vector<std::string> more{"--leak-guard", "masks",    "--mask-budget", "0.1",     "--mask-factor",
+                                        "12",           "--camera", "second",        "--stats", file("s.json")};
     good(arguments("1:3:1", file("m%d.exr"), withProbes(more), "builtin:door"));
     const auto frames = nlohmann::json::parse(readText(file("s.json")))["frames"];
     EXPECT_EQ(frames[0]["masksSettled"], true);

@@ -18,8 +18,8 @@ using testing::HasSubstr;
 struct DoorHall {
     explicit DoorHall(int threads = 1) : halls(makeScene(), threads) {
         pose = poseAt(halls.scene);
-        tracer = makeMovableEmbreeTracer(halls.context, halls.scene, pose, {.animated = true, .nodes = doorNodes})
-                     .value();
+        tracer =
+            makeMovableEmbreeTracer(halls.context, halls.scene, pose, {.animated = true, .nodes = doorNodes}).value();
     }
 
     static Scene makeScene() {
@@ -103,9 +103,12 @@ TEST(MaskUpdater, withEightClustersIsAFullBake) {
         DoorHall hall(threads);
         const MaskDesc desc{.clusters = 8, .factor = 4};
         MaskUpdater updater = hall.updater(desc);
-        for (const auto& [shift, angle] : {std::pair{glm::vec3(0, 0, 1.0f), 0.0f}, {glm::vec3(0, 0, -0.3f), 0.0f},
-                                           {glm::vec3(-0.5f, 0, 0), 1.2f}, {glm::vec3(0.6f, 0.4f, 0.3f), 0.7f},
-                                           {glm::vec3(0, -9, 0), 0.0f}, {glm::vec3(0), 0.0f}}) {
+        for (const auto& [shift, angle] : {std::pair{glm::vec3(0, 0, 1.0f), 0.0f},
+                                           {glm::vec3(0, 0, -0.3f), 0.0f},
+                                           {glm::vec3(-0.5f, 0, 0), 1.2f},
+                                           {glm::vec3(0.6f, 0.4f, 0.3f), 0.7f},
+                                           {glm::vec3(0, -9, 0), 0.0f},
+                                           {glm::vec3(0), 0.0f}}) {
             hall.place(shift, angle);
             hall.follow(updater);
             expectEqual(*updater.masks(), *hall.bake(desc));
@@ -155,8 +158,7 @@ TEST(MaskUpdater, throughADoorwayIsSeenOnlyWhileItIsOpen) {
         int count = 0;
         for (int t = 0; t < 512; ++t) {
             const glm::ivec3 texel(t & 7, t >> 3 & 7, t >> 6);
-            if (texel.x < 3)
-                count += maskAt(*updater.masks(), slot, texel) >> updater.masks()->cluster(slot + 1) & 1u;
+            if (texel.x < 3) count += maskAt(*updater.masks(), slot, texel) >> updater.masks()->cluster(slot + 1) & 1u;
         }
         return count;
     };

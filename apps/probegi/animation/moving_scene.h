@@ -16,8 +16,8 @@ struct MoveTimes {
     double masks = 0;   ///< what moved costs the masks
     double update = 0;  ///< all updates together
     int editsFound = 0;
-    std::size_t maskCells = 0;  ///< whose masks were solved again
-    bool masksSettled = true;   ///< masks are those of the scene as it is
+    std::size_t maskCells = 0;           ///< whose masks were solved again
+    bool masksSettled = true;            ///< masks are those of the scene as it is
     std::vector<std::size_t> updated{};  ///< probes of each update
 };
 
