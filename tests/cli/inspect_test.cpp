@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "cli/tool.h"
@@ -29,6 +30,61 @@ TEST(Inspect, InfoOfEveryBuiltinScene) {
         EXPECT_GT(info["grid"]["probes"], 0) << name;
         EXPECT_TRUE(info["warnings"].empty()) << name;
     }
+}
+
+/// A room of 8 x 3 x 4 m, of six squares that face inward, turned by 30 degrees about the vertical.
+std::string turnedRoom() {
+    const double h = 0.70710678;
+    const nlohmann::json scene = {
+        {"asset", {{"version", "2.0"}}},
+        {"scene", 0},
+        {"scenes", {{{"nodes", {0}}}}},
+        {"nodes",
+         {{{"rotation", {0, 0.25881905, 0, 0.96592583}}, {"children", {1, 2, 3, 4, 5, 6}}},
+          {{"mesh", 0}, {"scale", {8, 1, 4}}},
+          {{"mesh", 0}, {"scale", {8, 1, 4}}, {"rotation", {1, 0, 0, 0}}, {"translation", {0, 3, 4}}},
+          {{"mesh", 0}, {"scale", {3, 1, 4}}, {"rotation", {0, 0, -h, h}}, {"translation", {0, 3, 0}}},
+          {{"mesh", 0}, {"scale", {3, 1, 4}}, {"rotation", {0, 0, h, h}}, {"translation", {8, 0, 0}}},
+          {{"mesh", 0}, {"scale", {8, 1, 3}}, {"rotation", {h, 0, 0, h}}, {"translation", {0, 3, 0}}},
+          {{"mesh", 0}, {"scale", {8, 1, 3}}, {"rotation", {-h, 0, 0, h}}, {"translation", {0, 0, 4}}}}},
+        {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"mode", 5}}}}}}},
+        {"accessors", {{{"bufferView", 0}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}}}},
+        {"bufferViews", {{{"buffer", 0}, {"byteLength", 48}}}},
+        // (0,0,0) (0,0,1) (1,0,0) (1,0,1)
+        {"buffers",
+         {{{"byteLength", 48},
+           {"uri",
+            "data:application/octet-stream;base64,"
+            "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AACAPwAAAAAAAAAAAACAPwAAAAAAAIA/"}}}}};
+    return scene.dump();
+}
+
+TEST(Inspect, AGridTurnsWithItsRoom) {
+    const TemporaryFolder folder;
+    const std::string scene = folder.file("room.gltf"), stats = folder.file("stats.json");
+    std::ofstream(scene) << turnedRoom();
+    const auto info = nlohmann::json::parse(runTool({"info", scene, "--json"}).out);
+    EXPECT_NEAR(info["grid"]["turnedDegrees"].get<double>(), 30, 0.1);
+    EXPECT_THAT(runTool({"info", scene}).out, HasSubstr("turned by 30.0 degrees"));
+    const auto picture = [&](const char* turn) {
+        const ToolRun run = runTool({"render",      scene,
+                                     "-o",          folder.file("a.exr"),
+                                     "--size",      "16x9",
+                                     "--aov",       "irradiance",
+                                     "--point",     "3,1.5,0,5,5,5",
+                                     "--look-from", "2,1.5,0.5",
+                                     "--look-at",   "5,1,-1",
+                                     "--rays",      "16",
+                                     "--frames",    "1",
+                                     "--turn-grid", turn,
+                                     "--stats",     stats});
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        return readText(folder.file("a.exr"));
+    };
+    const std::string turned = picture("on");
+    EXPECT_EQ(nlohmann::json::parse(readText(stats))["probes"], info["grid"]["probes"]);
+    EXPECT_NE(picture("off"), turned) << "other probes";
+    expectRefused({"render", scene, "-o", folder.file("b.png"), "--turn-grid", "perhaps"}, "--turn-grid", 2);
 }
 
 TEST(Inspect, InfoAsText) {
