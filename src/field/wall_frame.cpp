@@ -93,9 +93,9 @@ Result<Bounds> boundsInFrame(const Tracer& tracer, std::span<const WallSample> s
     const Bounds world = tracer.bounds();
     Bounds around{back * world.lower, back * world.lower};
     for (int corner = 1; corner < 8; ++corner) {
-        const glm::vec3 p = back * glm::vec3((corner & 1 ? world.upper : world.lower).x,
-                                             (corner & 2 ? world.upper : world.lower).y,
-                                             (corner & 4 ? world.upper : world.lower).z);
+        const glm::vec3 p =
+            back * glm::vec3((corner & 1 ? world.upper : world.lower).x, (corner & 2 ? world.upper : world.lower).y,
+                             (corner & 4 ? world.upper : world.lower).z);
         around = {glm::min(around.lower, p), glm::max(around.upper, p)};
     }
     Bounds found{around.upper, around.lower};

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "cli/squares.h"
 #include "cli/tool.h"
 #include "probegi/builtin_scenes.h"
 #include "probegi/image.h"
@@ -35,28 +36,15 @@ TEST(Inspect, InfoOfEveryBuiltinScene) {
 /// A room of 8 x 3 x 4 m, of six squares that face inward, turned by 30 degrees about the vertical.
 std::string turnedRoom() {
     const double h = 0.70710678;
-    const nlohmann::json scene = {
-        {"asset", {{"version", "2.0"}}},
-        {"scene", 0},
-        {"scenes", {{{"nodes", {0}}}}},
-        {"nodes",
-         {{{"rotation", {0, 0.25881905, 0, 0.96592583}}, {"children", {1, 2, 3, 4, 5, 6}}},
-          {{"mesh", 0}, {"scale", {8, 1, 4}}},
-          {{"mesh", 0}, {"scale", {8, 1, 4}}, {"rotation", {1, 0, 0, 0}}, {"translation", {0, 3, 4}}},
-          {{"mesh", 0}, {"scale", {3, 1, 4}}, {"rotation", {0, 0, -h, h}}, {"translation", {0, 3, 0}}},
-          {{"mesh", 0}, {"scale", {3, 1, 4}}, {"rotation", {0, 0, h, h}}, {"translation", {8, 0, 0}}},
-          {{"mesh", 0}, {"scale", {8, 1, 3}}, {"rotation", {h, 0, 0, h}}, {"translation", {0, 3, 0}}},
-          {{"mesh", 0}, {"scale", {8, 1, 3}}, {"rotation", {-h, 0, 0, h}}, {"translation", {0, 0, 4}}}}},
-        {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"mode", 5}}}}}}},
-        {"accessors", {{{"bufferView", 0}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}}}},
-        {"bufferViews", {{{"buffer", 0}, {"byteLength", 48}}}},
-        // (0,0,0) (0,0,1) (1,0,0) (1,0,1)
-        {"buffers",
-         {{{"byteLength", 48},
-           {"uri",
-            "data:application/octet-stream;base64,"
-            "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AACAPwAAAAAAAAAAAACAPwAAAAAAAIA/"}}}}};
-    return scene.dump();
+    return sceneOfSquares(
+               {{{"rotation", {0, 0.25881905, 0, 0.96592583}}, {"children", {1, 2, 3, 4, 5, 6}}},
+                {{"mesh", 0}, {"scale", {8, 1, 4}}},
+                {{"mesh", 0}, {"scale", {8, 1, 4}}, {"rotation", {1, 0, 0, 0}}, {"translation", {0, 3, 4}}},
+                {{"mesh", 0}, {"scale", {3, 1, 4}}, {"rotation", {0, 0, -h, h}}, {"translation", {0, 3, 0}}},
+                {{"mesh", 0}, {"scale", {3, 1, 4}}, {"rotation", {0, 0, h, h}}, {"translation", {8, 0, 0}}},
+                {{"mesh", 0}, {"scale", {8, 1, 3}}, {"rotation", {h, 0, 0, h}}, {"translation", {0, 3, 0}}},
+                {{"mesh", 0}, {"scale", {8, 1, 3}}, {"rotation", {-h, 0, 0, h}}, {"translation", {0, 0, 4}}}})
+        .dump();
 }
 
 TEST(Inspect, AGridTurnsWithItsRoom) {
