@@ -18,9 +18,9 @@ struct WallSample {
 /// right angles. Deterministic.
 glm::quat wallFrame(std::span<const WallSample> samples);
 
-/// Bounds along a frame's axes of what a tracer can hit, as 6 x 48^2 rays from outside and the samples find them, in the
-/// frame's coordinates (the world's, turned back): what is thinner than a 48th of the scene may reach beyond. Errors:
-/// those of the tracer.
+/// Bounds along a frame's axes of what a tracer can hit, as 6 x 48^2 rays from outside and the samples find them, in
+/// the frame's coordinates (the world's, turned back): what is thinner than a 48th of the scene may reach beyond.
+/// Errors: those of the tracer.
 Result<Bounds> boundsInFrame(const Tracer& tracer, std::span<const WallSample> samples, const glm::quat& frame);
 
 }  // namespace probegi
