@@ -39,10 +39,10 @@ struct MaskUpdate {
 
 /// Masks that follow moving geometry, as doors, lifts and walls (mask paper, section 6: left there to future work). Of
 /// the cells that a moving box comes near to, only the rays are traced that meet it where it was or where it is; probes
-/// whose neighbours they part otherwise than when the masks were first baked are coloured again, all others keep their
-/// cluster; and only masks of cells that this changes are solved. So the masks depend on where things are and not on
-/// how they got there: a door that is shut again has its first masks. What look-ups read stays as it was until all of a
-/// change is done (double buffering). Move-only; not for concurrent calls.
+/// that it parts otherwise from their neighbours than when the masks were first baked, and these neighbours, are
+/// coloured again, all others keep their cluster; and only masks of cells that this changes are solved. So the masks
+/// depend on where things are and not on how they got there: a door that is shut again has its first masks. What
+/// look-ups read stays as it was until all of a change is done (double buffering). Move-only; not for concurrent calls.
 class PROBEGI_API MaskUpdater {
 public:
     /// Bakes the first masks. `boxes`: what may move, as the tracer has it now. `desc` and `boxes` are read during the
@@ -56,8 +56,8 @@ public:
     /// Where the boxes are now; the tracer of the next update must have them there. Each must hold all triangles of
     /// what it stands for. Errors: invalidArgument (not as many as at first, or one is not finite).
     [[nodiscard]] Result<void> move(std::span<const OrientedBox> boxes);
-    /// Goes on with what is to be done. Errors: those of the tracer, and cancelled; what was left to do is then still
-    /// left.
+    /// Goes on with what is to be done. Errors: those of the tracer, and invalidArgument (a negative budget); what was
+    /// left to do is then still left.
     Result<MaskUpdate> update(const Tracer& tracer, const MaskBudget& budget = {});
     bool settled() const noexcept;
     /// For FieldSettings::masks. Their report is that of the first bake but for cubes and bytes.
