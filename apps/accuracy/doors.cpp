@@ -7,6 +7,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/ext/matrix_transform.hpp>
+#include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "probegi/builtin_scenes.h"
@@ -86,7 +88,6 @@ public:
     }
     std::vector<Bounds> occluders() const { return triangleBounds(m_scene, m_pose); }
     const MovableTracer& tracer() const { return *m_tracer; }
-    const Bounds& bounds() const { return m_pose.bounds; }
     const Lighting& night() const { return m_night; }
     const FieldDesc& desc() const { return m_desc; }
 
@@ -147,7 +148,6 @@ public:
           m_house(context),
           m_rooms(m_house),
           m_field(must(Field::create(context, m_house.desc()))) {
-        m_row.scene = "house";
         m_row.masks = desc;
         m_house.turn(1);
         const auto start = Clock::now();
@@ -173,7 +173,6 @@ public:
         }
         compareOpen();
         for (int frame = kFrames - 1; frame >= 0; --frame) step(float(frame) / kFrames);
-        // The last frames' light is that of the door being shut: what is left of it in the study came through the door.
         while (!m_updater->settled()) must(m_updater->update(m_house.tracer()));
         for (const auto* points : {&m_rooms.atDoor, &m_rooms.elsewhere})
             m_row.shut = std::max(m_row.shut, between(m_field, m_updater->masks(), m_shut, *points));
@@ -256,8 +255,8 @@ std::string doorTable(const std::vector<DoorRow>& rows) {
         "updater's, mean and most. Behind: frames after the door has stopped until the masks are those of the open "
         "door. Leak: light in the study that the same probes have not by exact visibility of the moment, over the "
         "kitchen's, worst of every fifth frame; stale: the same, had the masks stayed those of the open door. Open: "
-        "RMS from "
-        "a full bake of the open door, within {2:.0f} m of the door and elsewhere in the two rooms; in brackets the "
+        "RMS from a full bake of the open door, within {2:.0f} m of the door and elsewhere in the two rooms; in "
+        "brackets the "
         "same of full bakes with two seeds. Shut: RMS of the door that is shut again from the first masks.\n\n"
         "| clusters | bake | ms | most | behind | leak | stale | open, at the door | open, elsewhere | shut |\n"
         "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",

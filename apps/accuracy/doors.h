@@ -10,7 +10,6 @@ namespace probegi::accuracy {
 
 /// Masks that follow a door that opens and shuts, and what they let through meanwhile.
 struct DoorRow {
-    std::string scene;
     MaskDesc masks{};
     double bakeSeconds = 0;            ///< of a full bake
     double meanMs = 0, mostMs = 0;     ///< of MaskUpdater::move() and update() in a frame, while the door moves

@@ -22,6 +22,11 @@ struct MaskCell {
     glm::vec3 texel(int x, int y, int z) const {
         return origin + float(x) * step[0] + float(y) * step[1] + float(z) * step[2];
     }
+    /// The same by its number; `factor`: texels an axis.
+    glm::vec3 texel(std::size_t number, int factor) const {
+        const int t = int(number);
+        return texel(t % factor, t / factor % factor, t / (factor * factor));
+    }
 };
 
 /// All cells of a field's volumes, and which of them may be blocked.

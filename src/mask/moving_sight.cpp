@@ -14,11 +14,6 @@ namespace {
 /// Half an extent of boxes at least, metres: sheets of no thickness have an inside too.
 constexpr float kThinnest = 1e-4f;
 
-glm::vec3 texelPlace(const MaskCell& cell, int factor, std::size_t texel) {
-    const int t = int(texel);
-    return cell.texel(t % factor, t / factor % factor, t / (factor * factor));
-}
-
 /// From one of a cell's probes to the next along an axis.
 struct Link {
     unsigned from, to;
@@ -56,7 +51,7 @@ private:
     void markOwn() {
         m_own.resize(m_texels);
         for (std::size_t t = 0; t < m_texels; ++t) {
-            m_own[t] = ownProbe(m_cell, texelPlace(m_cell, m_factor, t));
+            m_own[t] = ownProbe(m_cell, m_cell.texel(t, m_factor));
             if (m_own[t] == 8) continue;
             bool any = false;
             for (std::size_t i = 0; i < 8; ++i) any = any || m_met[i * m_texels + t];
@@ -139,7 +134,7 @@ Result<CellSight> seeCellAgain(const Tracer& tracer, const MaskCell& cell, int f
     const ChangedSegments changed(cell, factor, boxes);
     std::vector<Ray> rays;
     changed.forTexels([&](std::size_t i, std::size_t t) {
-        rays.push_back(sightRay(cell.probe[i], texelPlace(cell, factor, t), kReachBeyond * cell.texelSize));
+        rays.push_back(sightRay(cell.probe[i], cell.texel(t, factor), kReachBeyond * cell.texelSize));
     });
     for (const Link& link : changed.links()) rays.push_back(sightRay(cell.probe[link.from], cell.probe[link.to], 0.0f));
     std::vector<std::uint8_t> blocked(rays.size());

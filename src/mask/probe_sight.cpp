@@ -32,8 +32,7 @@ Result<void> seeCell(const Tracer& tracer, const MaskCell& cell, int factor, Cel
     for (std::size_t t = 0; t < texels; ++t) {
         unsigned bits = 0;
         for (std::size_t i = 0; i < 8; ++i) bits |= work.blocked[i * texels + t] ? 0u : 1u << i;
-        const std::size_t own =
-            ownProbe(cell, cell.texel(int(t) % factor, int(t) / factor % factor, int(t) / (factor * factor)));
+        const std::size_t own = ownProbe(cell, cell.texel(t, factor));
         seen[t] = own < 8 ? withOwnProbe(std::uint8_t(bits), own) : std::uint8_t(bits);
     }
     return {};
@@ -88,9 +87,12 @@ Ray sightRay(glm::vec3 from, glm::vec3 to, float beyond) {
 }
 
 std::size_t ownProbe(const MaskCell& cell, glm::vec3 texel) {
+    const float reach = kReachBeyond * cell.texelSize;
     std::size_t own = 8;
-    for (std::size_t i = 0; i < 8; ++i)
-        if (!(glm::distance(cell.probe[i], texel) > kReachBeyond * cell.texelSize)) own = i;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const glm::vec3 way = cell.probe[i] - texel;
+        if (!(glm::dot(way, way) > reach * reach)) own = i;
+    }
     return own;
 }
 

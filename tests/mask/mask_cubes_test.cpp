@@ -62,6 +62,16 @@ TEST(MaskCubes, thatNoCellHasGiveTheirPlace) {
     EXPECT_NE(cubes.add(cubeOf(1)), one) << "it was forgotten with its last cell";
 }
 
+// That of cells without geometry, which comes last, is one of those of the others if they have it.
+TEST(MaskCubes, thatSeesAllIsNoOtherThanTheirs) {
+    MaskCubes cubes(8, true);
+    const std::vector<std::uint32_t> open(512, kOpenTexel);
+    const std::uint32_t ofACell = cubes.add(open);
+    EXPECT_EQ(cubes.add(open), ofACell);
+    EXPECT_EQ(cubes.count(), 1u);
+    EXPECT_EQ(cubes.words()[77], 0x000f000fu);
+}
+
 // Random cells come and go: each has what it was last given, and no two cubes are the same.
 TEST(MaskCubes, staySoundAsCellsChange) {
     MaskCubes cubes(3, false);
